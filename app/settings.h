@@ -88,6 +88,7 @@ struct Settings {
     std::optional<glm::dvec3> target_ws;
     glm::dvec3 up_ws{0.0, 1.0, 0.0};
     std::optional<double> fov_deg;
+    std::optional<double> ortho_m; // height of an orthographic picture
     // lights
     std::optional<glm::dvec3> sun_ws; // unit, the way light travels
     std::optional<SpotLight> spot;

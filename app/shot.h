@@ -30,11 +30,13 @@ struct Shot {
     Outlook outlook;
     std::string camera; // name of the view, or how it was chosen
     host::Eye eye;
-    bool has_target = true; // eye.target_ws is a place of its own, not only a direction
-    std::vector<host::ShadedLight> lights;
-    std::optional<ScriptedPath> path; // --path
-    std::uint64_t moves = 0;          // how often it was moved
-    std::vector<std::string> notices; // sentences for people, on stderr
+    bool has_target = true;                // eye.target_ws is a place of its own, not only a direction
+    std::vector<host::ShadedLight> lights; // at most host::kMaxLights
+    bool lights_chosen = false;            // from more, for this frame; the one that --light means is the first then
+    std::size_t lights_left_out = 0;       // of those chosen from, in sight
+    std::optional<ScriptedPath> path;      // --path
+    std::uint64_t moves = 0;               // how often it was moved
+    std::vector<std::string> notices;      // sentences for people, on stderr
 };
 
 /// Loads the scene, applies what the settings change in it and evaluates it at --time (or at the first of --frames).

@@ -16,15 +16,18 @@
 
 namespace gnomon::host {
 
-/// Where the picture is taken from; perspective.
+/// Where the picture is taken from.
 struct Eye {
     glm::dvec3 position_ws{0.0};
     glm::dvec3 target_ws{0.0, 0.0, -1.0};
     glm::dvec3 up_ws{0.0, 1.0, 0.0};
     double fov_y_rad = 0.8; // vertical; (0, pi)
-    double near_m = 0.0;    // 0: 1/20000 of the diagonal of the scene's bounds
+    double height_m = 0.0;  // above 0: orthographic, with so many metres from top to bottom, whatever fov_y_rad says
+    double near_m = 0.0;    // 0: 1/20000 of the diagonal of the scene's bounds; of an orthographic one at the position
     double far_m = 0.0;     // 0: behind everything
 };
+/// Metres from top to bottom of the picture, at a distance before the eye.
+[[nodiscard]] double pictureHeight(const Eye& eye, double distance_m);
 
 /// A light as it is shaded and as it casts. Made from the scene's placed lights (lightsOf) or from the command line.
 struct ShadedLight {
@@ -44,6 +47,17 @@ void setBrightness(ShadedLight& light);
 
 /// Lights of one frame at most.
 inline constexpr std::size_t kMaxLights = 128;
+
+/// Which of more than kMaxLights lights a frame is lit by.
+struct LightsInSight {
+    std::vector<std::uint32_t> lights; // at most kMaxLights, `first` before the others, which ascend
+    std::size_t left_out = 0;          // how many others reach into the view, and there is no room for
+};
+/// Those that shine and whose rays come into the view: directional ones, and of others those that give the most where
+/// the camera is. `first` is taken in any case. The same for the same arguments. Preconditions: first < lights.size();
+/// the scene's bounds are not empty.
+[[nodiscard]] LightsInSight lightsInSight(std::span<const ShadedLight> lights, const Camera& camera,
+                                          const Aabb& scene_bounds_ws, std::uint32_t first);
 
 /// The camera of a frame: reversed z, y down. Used by whoever needs the same view as the picture (plan, truth).
 [[nodiscard]] Camera cameraOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws);

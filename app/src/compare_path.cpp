@@ -35,7 +35,7 @@ std::vector<std::uint32_t> shownFrames(const FrameRange& range)
 bool isSameEye(const host::Eye& a, const host::Eye& b)
 {
     return a.position_ws == b.position_ws && a.target_ws == b.target_ws && a.up_ws == b.up_ws &&
-           a.fov_y_rad == b.fov_y_rad && a.near_m == b.near_m && a.far_m == b.far_m;
+           a.fov_y_rad == b.fov_y_rad && a.height_m == b.height_m && a.near_m == b.near_m && a.far_m == b.far_m;
 }
 
 /// One walk of a group of techniques along the path.

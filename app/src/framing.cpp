@@ -193,4 +193,13 @@ host::Eye framedEye(const Shot& shot, double fov_y_rad, double aspect)
     return eye;
 }
 
+host::Eye standingBack(const host::Eye& eye, const Aabb& scene_ws)
+{
+    const glm::dvec3 backward = glm::normalize(eye.position_ws - eye.target_ws);
+    const double size_m = glm::length(glm::dvec3(scene_ws.extent()));
+    host::Eye moved = eye;
+    moved.position_ws = eye.target_ws + backward * std::max(glm::distance(eye.position_ws, eye.target_ws), size_m);
+    return moved;
+}
+
 } // namespace gnomon::app

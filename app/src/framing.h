@@ -10,6 +10,9 @@ namespace gnomon::app {
 /// their longer side. Surroundings of its detail do not count. The light comes over the viewer's left shoulder.
 [[nodiscard]] Outlook outlookOn(const scene::Scene& scene, const scene::State& state);
 
+/// An orthographic eye so far back from its target that nothing of the scene is behind it.
+[[nodiscard]] host::Eye standingBack(const host::Eye& eye, const Aabb& scene_bounds_ws);
+
 /// Unit, the way the light of the sun travels.
 [[nodiscard]] glm::dvec3 sunOf(const Outlook& outlook);
 

@@ -6,6 +6,7 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "render_target.h"
+#include "shot_light.h"
 #include "streams.h"
 #include "subcommands.h"
 #include "truth_masks.h"
@@ -103,9 +104,14 @@ void forEachFrame(Shot& shot, const Settings& settings, const Draw& draw)
 {
     const FrameRange range = settings.frames.value_or(FrameRange{});
     Progress progress("drawing", range.last - range.first + 1);
+    bool told = shot.lights_left_out > 0; // by the shot's own notices
     for (std::uint32_t index = range.first; index <= range.last; ++index) {
         if (index != range.first) {
             moveShot(shot, settings, index);
+            if (shot.lights_left_out > 0 && !told) {
+                told = true;
+                notice(fmt::format("frame {}: {}", index, leftOutSentence(shot)));
+            }
         }
         requireNotInterrupted();
         draw(index, index == range.first);
@@ -164,10 +170,6 @@ std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& ta
 /// The same shading with the ray tracer's masks.
 std::string drawTruth(Shot& shot, const Settings& settings, RenderTarget& target)
 {
-    if (shot.lights.size() > host::kMaxLights) { // the host would say so only after all rays were traced
-        throw Error("lighting the scene", fmt::format("{} lights", shot.lights.size()),
-                    fmt::format("use at most {}", host::kMaxLights));
-    }
     TruthMasks truth(shot, settings);
     const auto gpu = openGpu(settings);
     {

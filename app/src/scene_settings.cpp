@@ -295,6 +295,8 @@ const std::vector<Setting>& rows()
          .apply = [](Settings& s, const Value& v) { s.up_ws = direction("up", vec3(v.numbers)); }},
         {.key = "fov", .group = Group::camera, .type = real, .form = "DEG", .unit = "degrees", .min = 0.1, .max = 179,
          .doc = "vertical field of view; else the camera's own, or 45", .apply = [](Settings& s, const Value& v) { s.fov_deg = v.real; }},
+        {.key = "ortho", .group = Group::camera, .type = real, .form = "HEIGHT", .unit = "m", .min = 1e-6, .max = kFarthest,
+         .doc = "orthographic, with so much from top to bottom; else the camera's own", .apply = [](Settings& s, const Value& v) { s.ortho_m = v.real; }},
 
         {.key = "sun", .group = Group::light, .type = numbers, .form = "x,y,z", .min = -kFarthest, .max = kFarthest, .count = 3,
          .doc = "direction the light travels; replaces the scene's lights",

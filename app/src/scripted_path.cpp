@@ -46,7 +46,7 @@ host::Eye eyeAt(const ScriptedPath& path, double s)
     const glm::dvec3 forward = glm::normalize(eye.target_ws - eye.position_ws);
     switch (path.kind) {
     case PathKind::pan:
-        shift(eye, path.right_ws * (s * kPanHeights * 2.0 * path.focus_m * std::tan(eye.fov_y_rad / 2.0)));
+        shift(eye, path.right_ws * (s * kPanHeights * host::pictureHeight(eye, path.focus_m)));
         break;
     case PathKind::orbit: {
         const glm::dvec3 centre = eye.position_ws + forward * path.focus_m;
@@ -60,6 +60,7 @@ host::Eye eyeAt(const ScriptedPath& path, double s)
         break;
     case PathKind::zoom:
         eye.fov_y_rad = zoomedFov(eye.fov_y_rad, s);
+        eye.height_m *= std::exp(-kZoomRate * s);
         break;
     case PathKind::day:
         break;
@@ -107,7 +108,7 @@ ScriptedPath openFile(const Settings& settings)
     if (!path.keys.target_ws.empty()) {
         requireNoRival(settings, path.keys.eye_ws, "where the camera is", {"camera"});
     }
-    requireNoRival(settings, path.keys.fov_deg, "how wide the camera looks", {"fov"});
+    requireNoRival(settings, path.keys.fov_deg, "how wide the camera looks", {"fov", "ortho"});
     requireNoRival(settings, path.keys.sun_ws, "where the sun is", {"sun", "spot", "point"});
     requireNoRival(settings, path.keys.time_s, "what time it is", {"time"});
     return path;

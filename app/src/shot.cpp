@@ -4,6 +4,7 @@
 #include "framing.h"
 #include "shot_camera.h"
 #include "shot_ground.h"
+#include "shot_light.h"
 #include "shot_notices.h"
 #include "shot_range.h"
 #include "shot_volumes.h"
@@ -341,6 +342,10 @@ Shot makeShot(const Settings& settings)
     }
     requireInRange(shot, settings);
     noteSizesWithoutEffect(shot, settings, shot.lights);
+    chooseLights(shot, settings);
+    if (shot.lights_left_out > 0) {
+        shot.notices.push_back(leftOutSentence(shot));
+    }
     noteWhatSurprises(shot, settings);
     askOfTechnique(shot, settings);
     return shot;
@@ -365,6 +370,7 @@ void moveShot(Shot& shot, const Settings& settings, std::uint32_t frame)
         followPath(shot, settings, frame);
     }
     requireInRange(shot, settings);
+    chooseLights(shot, settings);
 }
 
 host::RenderOptions renderOptions(const Settings& settings)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shot_camera.h"
 
+#include "framing.h"
+
 #include <gnomon/error.h>
 
 #include <fmt/format.h>
@@ -32,10 +34,6 @@ void useView(Shot& shot, const Settings& settings, const scene::NamedView& view)
 void usePlaced(Shot& shot, const Settings& settings, const scene::PlacedCamera& placed, const std::string& name)
 {
     const scene::Camera& camera = shot.scene.cameras[placed.camera];
-    if (camera.orthographic) {
-        throw Error("using camera " + name, "it is orthographic, which this version does not draw",
-                    "give --eye and --target");
-    }
     shot.camera = name;
     shot.eye = host::Eye{};
     shot.eye.position_ws = placed.eye_ws;
@@ -43,6 +41,7 @@ void usePlaced(Shot& shot, const Settings& settings, const scene::PlacedCamera& 
     shot.eye.up_ws = placed.up_ws;
     shot.has_target = false;
     shot.eye.fov_y_rad = fovRad(settings, static_cast<double>(camera.fov_y_rad));
+    shot.eye.height_m = camera.orthographic ? 2.0 * static_cast<double>(camera.half_height_m) : 0.0;
     shot.eye.near_m = static_cast<double>(camera.near_m);
     shot.eye.far_m = static_cast<double>(camera.far_m);
 }
@@ -99,6 +98,35 @@ void useFramed(Shot& shot, const Settings& settings)
     const double aspect = static_cast<double>(settings.size_px.x) / static_cast<double>(settings.size_px.y);
     shot.camera = "fitted";
     shot.eye = framedEye(shot, fovRad(settings, glm::radians(kDefaultFovDeg)), aspect);
+    if (settings.ortho_m) {
+        shot.eye = standingBack(shot.eye, shot.state.bounds_ws);
+    }
+}
+
+/// Where the camera is, as it is without --ortho.
+void findEye(Shot& shot, const Settings& settings)
+{
+    shot.has_target = true;
+    if (settings.eye_ws) {
+        shot.camera = "given";
+        shot.eye = host::Eye{};
+        shot.eye.position_ws = *settings.eye_ws;
+        shot.eye.target_ws = *settings.target_ws;
+        shot.eye.up_ws = settings.up_ws;
+        shot.eye.fov_y_rad = fovRad(settings, glm::radians(kDefaultFovDeg));
+    } else if (!settings.camera.empty()) {
+        useNamed(shot, settings);
+    } else if (!shot.scene.views.empty()) {
+        useView(shot, settings, shot.scene.views.front());
+    } else if (const auto& cameras = shot.state.cameras; !cameras.empty()) {
+        const auto perspective = std::ranges::find_if(cameras, [&](const scene::PlacedCamera& placed) {
+            return !shot.scene.cameras[placed.camera].orthographic;
+        });
+        const auto first = perspective != cameras.end() ? perspective : cameras.begin();
+        usePlaced(shot, settings, *first, nameOf(shot, static_cast<std::size_t>(first - cameras.begin())));
+    } else {
+        useFramed(shot, settings);
+    }
 }
 
 } // namespace
@@ -117,30 +145,8 @@ std::vector<std::string> cameraNames(const Shot& shot)
 
 void placeEye(Shot& shot, const Settings& settings)
 {
-    shot.has_target = true;
-    if (settings.eye_ws) {
-        shot.camera = "given";
-        shot.eye = host::Eye{};
-        shot.eye.position_ws = *settings.eye_ws;
-        shot.eye.target_ws = *settings.target_ws;
-        shot.eye.up_ws = settings.up_ws;
-        shot.eye.fov_y_rad = fovRad(settings, glm::radians(kDefaultFovDeg));
-    } else if (!settings.camera.empty()) {
-        useNamed(shot, settings);
-    } else if (!shot.scene.views.empty()) {
-        useView(shot, settings, shot.scene.views.front());
-    } else {
-        const auto& cameras = shot.state.cameras;
-        const auto perspective = std::find_if(cameras.begin(), cameras.end(), [&](const scene::PlacedCamera& placed) {
-            return !shot.scene.cameras[placed.camera].orthographic;
-        });
-        if (perspective != cameras.end()) {
-            usePlaced(shot, settings, *perspective,
-                      nameOf(shot, static_cast<std::size_t>(perspective - cameras.begin())));
-        } else {
-            useFramed(shot, settings);
-        }
-    }
+    findEye(shot, settings);
+    shot.eye.height_m = settings.ortho_m.value_or(shot.eye.height_m);
 }
 
 } // namespace gnomon::app

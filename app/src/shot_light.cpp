@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of a shot's lights is meant, and whether what was said of lights applies to any.
-#include "app/shot.h"
+// Which of a shot's lights is meant, which of too many are taken, and whether what was said of lights applies to any.
+#include "shot_light.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@ namespace gnomon::app {
 
 std::size_t lightIndex(const Shot& shot, const Settings& settings)
 {
-    if (settings.light.empty()) {
+    if (settings.light.empty() || shot.lights_chosen) {
         return 0;
     }
     std::vector<std::string_view> names;
@@ -64,6 +64,32 @@ void noteSizesWithoutEffect(Shot& shot, const Settings& settings, std::span<cons
             tell(key, "spot light");
         }
     }
+}
+
+void chooseLights(Shot& shot, const Settings& settings)
+{
+    shot.lights_chosen = false;
+    shot.lights_left_out = 0;
+    if (shot.lights.size() <= host::kMaxLights) {
+        return;
+    }
+    const Camera camera = host::cameraOf(shot.eye, settings.size_px.x, settings.size_px.y, shot.state.bounds_ws);
+    const auto first = static_cast<std::uint32_t>(lightIndex(shot, settings));
+    const host::LightsInSight in_sight = host::lightsInSight(shot.lights, camera, shot.state.bounds_ws, first);
+    std::vector<host::ShadedLight> chosen;
+    chosen.reserve(in_sight.lights.size());
+    for (const std::uint32_t light : in_sight.lights) {
+        chosen.push_back(shot.lights[light]);
+    }
+    shot.lights = std::move(chosen);
+    shot.lights_chosen = true;
+    shot.lights_left_out = in_sight.left_out;
+}
+
+std::string leftOutSentence(const Shot& shot)
+{
+    return fmt::format("{} lights are in sight, and {} is the most: {} that give the least here are left out",
+                       shot.lights.size() + shot.lights_left_out, host::kMaxLights, shot.lights_left_out);
 }
 
 } // namespace gnomon::app

@@ -120,6 +120,9 @@ void noteWhatSurprises(Shot& shot, const Settings& settings)
     noteSizes(shot, settings);
     noteExtents(shot, settings);
     noteScene(shot, settings);
+    if (settings.fov_deg && shot.eye.height_m > 0.0) {
+        tellNoEffect(settings, shot.notices, "--fov has no effect on an orthographic camera, but --ortho has one");
+    }
 }
 
 } // namespace gnomon::app

@@ -329,12 +329,16 @@ Json pathJson(const Settings& settings)
 
 Json eyeJson(const host::Eye& eye)
 {
-    return {{"position_ws", vectorJson(eye.position_ws)},
-            {"target_ws", vectorJson(eye.target_ws)},
-            {"up_ws", vectorJson(eye.up_ws)},
-            {"fov_y_rad", numberJson(eye.fov_y_rad)},
-            {"near_m", numberJson(eye.near_m)},
-            {"far_m", numberJson(eye.far_m)}};
+    Json json{{"position_ws", vectorJson(eye.position_ws)},
+              {"target_ws", vectorJson(eye.target_ws)},
+              {"up_ws", vectorJson(eye.up_ws)},
+              {"fov_y_rad", numberJson(eye.fov_y_rad)}};
+    if (eye.height_m > 0.0) {
+        json["height_m"] = numberJson(eye.height_m);
+    }
+    json["near_m"] = numberJson(eye.near_m);
+    json["far_m"] = numberJson(eye.far_m);
+    return json;
 }
 
 Json lightJson(const host::ShadedLight& light)

@@ -79,8 +79,8 @@ void main()
     }
     vec4 base = baseColour(uvs, colour);
     float alpha = kOpaque ? 1.0 : base.a;
-    vec3 p = rayOf(gl_FragCoord.xy) / gl_FragCoord.w;
-    Surface surface = surfaceAt(p, normal.xyz, tangent, uvs, base);
+    vec3 p = pointOn(gl_FragCoord.xy, viewDepthOf(gl_FragCoord.z, gl_FragCoord.w));
+    Surface surface = surfaceAt(p, sightTo(p), normal.xyz, tangent, uvs, base);
     float model = kPhysicalOnly ? 0.0 : surface.model;
     if (model == 2.0) {
         out_light = shown(base.rgb * FRAME_SKYLIGHT(6).w, alpha);
@@ -88,7 +88,7 @@ void main()
     }
     bool phong_2005 = kOpaque && kPhong2005;
     float second = model == 1.0 ? MATERIAL_MODEL.y : surface.roughness;
-    Lit s = litSurface(p, surface.shading_normal, base.rgb, phong_2005 ? 0.0 : surface.metallic, second,
+    Lit s = litSurface(p, -sightTo(p), surface.shading_normal, base.rgb, phong_2005 ? 0.0 : surface.metallic, second,
                        phong_2005 ? 1.0 : model);
     vec3 own_tint = ownTint(base);
     vec3 sum = emitted + (kOpaque ? lampLight(surface.lit) : vec3(0.0));

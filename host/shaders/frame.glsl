@@ -16,12 +16,13 @@ const int kMaxLights = 128;
 layout(set = 0, binding = 0, std140) uniform FrameData
 {
     mat4 clip_from_eye;
-    // Eye-relative position of pixel p at view depth d: (ray_x * p.x + ray_y * p.y + ray_0) * d. w of the first: radius of
-    // ambient occlusion, m.
+    // Eye-relative position of pixel p at view depth d: (ray_x * p.x + ray_y * p.y + ray_0) * d; of an orthographic
+    // camera that without the d, and d along the view (ray.glsl). w of the first: radius of ambient occlusion, m. Of the
+    // others, where the camera is orthographic: view depth = ray_y.w * stored depth + ray_0.w; else 0.
     vec4 ray_x;
     vec4 ray_y;
     vec4 ray_0;
-    vec4 depth; // 1 / view depth = x * stored depth + y; z: 1 when there is a mask; w: light of lit windows
+    vec4 depth; // perspective: 1 / view depth = x * stored depth + y; z: 1 when there is a mask; w: light of lit windows
     // Of a surface's normal: for red, green and blue a row of (x, y, z, 1), for each one of (xy, yz, yy, xz), and times
     // xx - zz; w of the last: exposure of what is emitted.
     vec4 skylight[7];

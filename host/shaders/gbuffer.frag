@@ -30,8 +30,8 @@ layout(location = kSmoothPlace) out vec4 out_smooth; // smoothEncode()
 void main()
 {
     vec4 base = baseColour(uvs, colour);
-    vec3 p = rayOf(gl_FragCoord.xy) / gl_FragCoord.w;
-    Surface s = surfaceAt(p, normal.xyz, tangent, uvs, base);
+    vec3 p = pointOn(gl_FragCoord.xy, viewDepthOf(gl_FragCoord.z, gl_FragCoord.w));
+    Surface s = surfaceAt(p, sightTo(p), normal.xyz, tangent, uvs, base);
     float second = s.model == 1.0 ? log2(MATERIAL_MODEL.y + 1.0) / 16.0 : s.roughness;
     vec2 shading = octahedralEncode(s.shading_normal);
     out_surface = uvec4(packSurface(s, shading, second), ids.x);

@@ -22,11 +22,12 @@ struct Lit {
     bool phong;
 };
 
-Lit litSurface(vec3 p, vec3 n, vec3 base, float metallic, float roughness, float model)
+// `p`: eye-relative position; `to_eye`: of any length.
+Lit litSurface(vec3 p, vec3 to_eye, vec3 n, vec3 base, float metallic, float roughness, float model)
 {
     Lit s;
     s.p = p;
-    s.v = normalize(-p);
+    s.v = normalize(to_eye);
     s.n = n;
     s.n_v = max(dot(n, s.v), 1e-4);
     s.phong = model == 1.0;

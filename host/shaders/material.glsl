@@ -50,8 +50,8 @@ vec3 emission(vec4 uvs)
     return kEmits ? material.emissive.rgb * texture(emissive_texture, place(4, uvs)).rgb : vec3(0.0);
 }
 
-// `p`: eye-relative position. The tangent's w is the handedness, 0 where there is no tangent.
-Surface surfaceAt(vec3 p, vec3 normal, vec4 tangent, vec4 uvs, vec4 base)
+// `p`: eye-relative position; `sight`: sightTo(p). The tangent's w is the handedness, 0 where there is no tangent.
+Surface surfaceAt(vec3 p, vec3 sight, vec3 normal, vec4 tangent, vec4 uvs, vec4 base)
 {
     Surface s;
     s.base = base;
@@ -61,7 +61,7 @@ Surface surfaceAt(vec3 p, vec3 normal, vec4 tangent, vec4 uvs, vec4 base)
     float l = dot(n, n);
     // A triangle seen edge on has no derivative worth the name.
     vec3 geometric = l > 1e-30 ? n * inversesqrt(l) : normalize(normal);
-    s.geometric_normal = dot(geometric, p) > 0.0 ? -geometric : geometric;
+    s.geometric_normal = dot(geometric, sight) > 0.0 ? -geometric : geometric;
     n = normalize(normal);
     s.metallic = MATERIAL_NUMBERS.x;
     s.roughness = MATERIAL_NUMBERS.y;

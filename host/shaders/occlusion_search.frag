@@ -23,7 +23,7 @@ const float kSky_m = 1e9;
 float viewDepthAt(vec2 middle)
 {
     float stored = textureLod(depths, middle / pictureSize(), 0.0).r;
-    return stored > 0.0 ? 1.0 / (FRAME_DEPTH.x * stored + FRAME_DEPTH.y) : kSky_m;
+    return stored > 0.0 ? viewDepthOf(stored, FRAME_DEPTH.x * stored + FRAME_DEPTH.y) : kSky_m;
 }
 
 // A point and what its slices share.
@@ -44,7 +44,7 @@ float horizonTo(Seen s, vec2 direction, float own, float part)
     for (int i = 0; i < kOcclusionSteps; ++i) {
         float t = (float(i) + s.shift) / float(kOcclusionSteps);
         vec2 at = floor(s.middle + direction * max(t * t * s.reach, float(i) + 1.0)) + 0.5;
-        vec3 to = rayOf(at) * viewDepthAt(at) - s.p;
+        vec3 to = pointOn(at, viewDepthAt(at)) - s.p;
         float distance = length(to);
         bool outside = any(lessThan(at, vec2(0.0))) || any(greaterThan(at, pictureSize()));
         float weight = outside ? 0.0 : occluderWeight(distance, s.radius);
@@ -73,9 +73,9 @@ void main()
     Seen s;
     s.middle = min(vec2(at * 2) + 0.5, pictureSize() - 0.5);
     float view_depth = viewDepthAt(s.middle);
-    s.p = rayOf(s.middle) * view_depth;
-    s.v = normalize(-s.p);
-    float pixel_m = length(FRAME_RAY_X.xyz) * view_depth;
+    s.p = pointOn(s.middle, view_depth);
+    s.v = normalize(-sightTo(s.p));
+    float pixel_m = pixelAt(view_depth);
     s.reach = min(FRAME_RAY_X.w / pixel_m, kMostReach * pictureSize().y);
     s.radius = s.reach * pixel_m;
     s.normal = octahedralDecode(textureLod(normals, s.middle / pictureSize(), 0.0).xy);

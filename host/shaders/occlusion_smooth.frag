@@ -20,8 +20,8 @@ void main()
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 middle = clamp(vec2(at * 2) - 0.5, vec2(0.5), size - 0.5);
     float stored = textureLod(depths, middle / size, 0.0).r;
-    float view_depth = 1.0 / (FRAME_DEPTH.x * stored + FRAME_DEPTH.y);
-    vec3 p = rayOf(middle) * view_depth;
+    float view_depth = viewDepthOf(stored, FRAME_DEPTH.x * stored + FRAME_DEPTH.y);
+    vec3 p = pointOn(middle, view_depth);
     vec3 normal = octahedralDecode(textureLod(normals, middle / size, 0.0).xy);
     float tolerance = surfaceTolerance(view_depth);
     float sum = 0.0;

@@ -16,7 +16,8 @@ vec4 depthOfTexels(uvec4 texels) { return uintBitsToFloat(texels & ~255u); }
 vec4 surfaceWeights(vec3 p, vec3 normal, vec4 x, vec4 y, vec4 view_depths, float tolerance)
 {
     vec4 along = dot(normal, FRAME_RAY_X.xyz) * x + dot(normal, FRAME_RAY_Y.xyz) * y + dot(normal, FRAME_RAY_0.xyz);
-    vec4 off = abs(view_depths * along - dot(normal, p)) / tolerance;
+    vec4 at = isOrthographic() ? along + dot(normal, viewAxis()) * view_depths : along * view_depths;
+    vec4 off = abs(at - dot(normal, p)) / tolerance;
     vec4 near = max(1.0 - off, 0.0);
     return near * near + 1e-3; // where all lie off it, their mean
 }
@@ -24,7 +25,7 @@ vec4 surfaceWeights(vec3 p, vec3 normal, vec4 x, vec4 y, vec4 view_depths, float
 // Metres that two texels of one surface may lie apart.
 float surfaceTolerance(float view_depth)
 {
-    return max(0.2 * FRAME_RAY_X.w, 2.0 * length(FRAME_RAY_X.xyz) * view_depth);
+    return max(0.2 * FRAME_RAY_X.w, 2.0 * pixelAt(view_depth));
 }
 
 #endif

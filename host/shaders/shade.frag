@@ -66,12 +66,12 @@ void main()
         return;
     }
     float depth = texelHere(depths).r;
-    float near = FRAME_DEPTH.x * depth + FRAME_DEPTH.y; // 1 / view depth
-    vec3 p = rayOf(gl_FragCoord.xy) / near;
+    float view_depth = viewDepthOf(depth, FRAME_DEPTH.x * depth + FRAME_DEPTH.y);
+    vec3 p = pointOn(gl_FragCoord.xy, view_depth);
     float second = model == 1.0 ? exp2(stored.second * 16.0) - 1.0 : stored.second;
-    Lit s = litSurface(p, stored.shading_normal, base.rgb, kPhong2005 ? 0.0 : stored.metallic, second,
+    Lit s = litSurface(p, -sightTo(p), stored.shading_normal, base.rgb, kPhong2005 ? 0.0 : stored.metallic, second,
                        kPhong2005 ? 1.0 : model);
-    vec3 sum = kPhong2005 ? vec3(0.0) : ambientHere(s, model == 1.0 ? 1.0 : stored.second, base.a, 1.0 / near);
+    vec3 sum = kPhong2005 ? vec3(0.0) : ambientHere(s, model == 1.0 ? 1.0 : stored.second, base.a, view_depth);
     sum += lampLight(stored.lit);
 #ifdef HOST_COMPACT_MASK
     ivec2 pixel = ivec2(gl_FragCoord.xy);

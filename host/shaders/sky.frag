@@ -18,7 +18,7 @@ layout(location = 0) out vec4 out_light;
 
 void main()
 {
-    vec3 d = normalize(rayOf(gl_FragCoord.xy));
+    vec3 d = normalize(sightThrough(gl_FragCoord.xy));
     vec3 sky = mix(SKY_HORIZON, SKY_ZENITH, pow(clamp(d.y, 0.0, 1.0), 0.4));
     // Haze: what is below the horizon takes on the ground's colour slowly and never wholly.
     sky = mix(sky, SKY_GROUND, 0.65 * smoothstep(0.0, 0.8, -d.y));

@@ -65,7 +65,7 @@ vec3 starsAt(vec3 d)
     vec2 at = (on_face * 0.5 + 0.5) * kCells;
     uint face = uint(axis) * 2u + (d[axis] > 0.0 ? 1u : 0u);
     vec3 random = vec3(scrambled(uvec3(uvec2(at), face))) * (1.0 / 4294967296.0);
-    float pixel = max(length(FRAME_RAY_X.xyz), 5e-4) * 0.5 * kCells; // in cells
+    float pixel = max(isOrthographic() ? 0.0 : length(FRAME_RAY_X.xyz), 5e-4) * 0.5 * kCells; // in cells
     vec2 off = fract(at) - (0.2 + 0.6 * random.xy);
     float width = 0.5 * pixel;
     float seen = exp(-dot(off, off) / max(width * width, 1e-6));
@@ -76,7 +76,7 @@ vec3 starsAt(vec3 d)
 
 void main()
 {
-    vec3 d = normalize(rayOf(gl_FragCoord.xy));
+    vec3 d = normalize(sightThrough(gl_FragCoord.xy));
     vec3 sky = SKY_NIGHT + skyOf(0, d);
     vec3 high = discOf(0, d);
     if (kNight) {

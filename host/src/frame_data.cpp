@@ -64,6 +64,11 @@ void fillSky(FrameData& data, const FrameLight& light)
 
 } // namespace
 
+double pictureHeight(const Eye& eye, double distance_m)
+{
+    return eye.height_m > 0.0 ? eye.height_m : 2.0 * distance_m * std::tan(eye.fov_y_rad * 0.5);
+}
+
 Sight sightOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& bounds)
 {
     constexpr const char* kTried = "placing the camera";
@@ -74,7 +79,8 @@ Sight sightOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const A
     if (!(distance > 0.0) || !std::isfinite(distance)) {
         throw Error(kTried, "the eye is at its target", "move one of them");
     }
-    if (!(eye.fov_y_rad > 0.0 && eye.fov_y_rad < std::numbers::pi)) {
+    sight.orthographic = eye.height_m > 0.0;
+    if (!sight.orthographic && !(eye.fov_y_rad > 0.0 && eye.fov_y_rad < std::numbers::pi)) {
         throw Error(kTried, "the vertical field of view is not between 0 and 180 degrees");
     }
     sight.forward_ws = look / distance;
@@ -86,10 +92,11 @@ Sight sightOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const A
     }
     sight.right_ws = glm::normalize(right);
     sight.up_ws = glm::cross(sight.right_ws, sight.forward_ws);
-    sight.tan_y = std::tan(eye.fov_y_rad * 0.5);
-    sight.tan_x = sight.tan_y * static_cast<double>(width) / static_cast<double>(height);
+    sight.half_y = pictureHeight(eye, 1.0) * 0.5;
+    sight.half_x = sight.half_y * static_cast<double>(width) / static_cast<double>(height);
     const double diagonal = bounds.empty() ? 1.0 : glm::length(glm::dvec3(bounds.extent()));
-    sight.near_m = eye.near_m > 0.0 ? eye.near_m : diagonal / 20000.0;
+    const double least_m = diagonal / 20000.0;
+    sight.near_m = eye.near_m > 0.0 || sight.orthographic ? eye.near_m : least_m;
     sight.far_m = eye.far_m;
     if (!(sight.far_m > 0.0)) {
         double farthest = 0.0;
@@ -98,14 +105,23 @@ Sight sightOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const A
         }
         sight.far_m = farthest * 1.01;
     }
-    sight.far_m = std::max(sight.far_m, sight.near_m * 2.0);
+    sight.far_m = std::max(sight.far_m, sight.near_m + (sight.orthographic ? least_m : sight.near_m));
     return sight;
 }
 
 glm::dmat4 clipFromEye(const Sight& s)
 {
-    const glm::dvec3 x = s.right_ws / s.tan_x + s.forward_ws * s.jitter.x;
-    const glm::dvec3 y = -s.up_ws / s.tan_y + s.forward_ws * s.jitter.y;
+    if (s.orthographic) {
+        // z_clip = (far - d) / (far - near).
+        const glm::dvec3 across = s.right_ws / s.half_x;
+        const glm::dvec3 down = -s.up_ws / s.half_y;
+        const double scale = 1.0 / (s.far_m - s.near_m);
+        const glm::dvec3 towards = -s.forward_ws * scale;
+        return {glm::dvec4(across.x, down.x, towards.x, 0.0), glm::dvec4(across.y, down.y, towards.y, 0.0),
+                glm::dvec4(across.z, down.z, towards.z, 0.0), glm::dvec4(s.jitter, s.far_m * scale, 1.0)};
+    }
+    const glm::dvec3 x = s.right_ws / s.half_x + s.forward_ws * s.jitter.x;
+    const glm::dvec3 y = -s.up_ws / s.half_y + s.forward_ws * s.jitter.y;
     // z_clip = near (far - d) / (far - near) and w = d, d the view depth: 1 at the near plane, 0 at the far plane.
     const double k = s.near_m / (s.far_m - s.near_m);
     const glm::dvec3 z = -k * s.forward_ws;
@@ -139,14 +155,15 @@ void fillFrameData(FrameData& data, const Sight& sight, std::uint32_t width, std
                    bool has_mask)
 {
     data.clip_from_eye = glm::mat4(clipFromEye(sight));
-    const glm::dvec3 step_x = sight.right_ws * (2.0 * sight.tan_x / width);
-    const glm::dvec3 step_y = sight.up_ws * (-2.0 * sight.tan_y / height);
-    const glm::dvec3 corner = sight.forward_ws - sight.right_ws * (sight.tan_x * (1.0 + sight.jitter.x)) +
-                              sight.up_ws * (sight.tan_y * (1.0 + sight.jitter.y));
+    const glm::dvec3 step_x = sight.right_ws * (2.0 * sight.half_x / width);
+    const glm::dvec3 step_y = sight.up_ws * (-2.0 * sight.half_y / height);
+    const glm::dvec3 corner = (sight.orthographic ? glm::dvec3(0.0) : sight.forward_ws) -
+                              sight.right_ws * (sight.half_x * (1.0 + sight.jitter.x)) +
+                              sight.up_ws * (sight.half_y * (1.0 + sight.jitter.y));
     data.ray_x = glm::vec4(glm::vec3(step_x), 0.0F);
-    data.ray_y = glm::vec4(glm::vec3(step_y), 0.0F);
-    data.ray_0 = glm::vec4(glm::vec3(corner), 0.0F);
-    const double span = (sight.far_m - sight.near_m) / (sight.near_m * sight.far_m);
+    data.ray_y = glm::vec4(glm::vec3(step_y), sight.orthographic ? sight.near_m - sight.far_m : 0.0);
+    data.ray_0 = glm::vec4(glm::vec3(corner), sight.orthographic ? sight.far_m : 0.0);
+    const double span = sight.orthographic ? 0.0 : (sight.far_m - sight.near_m) / (sight.near_m * sight.far_m);
     data.depth = {span, 1.0 / sight.far_m, has_mask ? 1.0 : 0.0, light.lamps};
     fillSkylight(data, light);
     fillSky(data, light);

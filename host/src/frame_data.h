@@ -40,8 +40,9 @@ struct Sight {
     glm::dvec3 right_ws;
     glm::dvec3 up_ws;
     glm::dvec3 forward_ws;
-    double tan_x = 1.0; // half the picture's width at 1 m
-    double tan_y = 1.0;
+    bool orthographic = false;
+    double half_x = 1.0; // half the picture's width: metres, or of a perspective one metres at 1 m
+    double half_y = 1.0;
     double near_m = 0.1;
     double far_m = 100.0;
     glm::dvec2 jitter{0.0}; // how far the picture is moved, of clip space's [-1, 1]

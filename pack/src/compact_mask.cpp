@@ -7,6 +7,7 @@
 #include <gnomon/pack/mask_draws.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
@@ -55,34 +56,48 @@ double importanceOf(const Source& source, double distance2)
     return positive(source.brightness * window / std::max(distance2, reach2 / 64.0));
 }
 
-// Lines of sight.
+// A line of sight: a point on it and a unit vector along it, 0 where there is none.
+struct SightLine {
+    glm::dvec3 from_ws{0.0};
+    glm::dvec3 way{0.0};
+};
+// Squared distance of a point to a line of sight, which has no part behind the eye.
+double distance2(const SightLine& line, const glm::dvec3& point_ws)
+{
+    const glm::dvec3 to = point_ws - line.from_ws;
+    const glm::dvec3 beside = to - line.way * positive(glm::dot(to, line.way));
+    return positive(glm::dot(beside, beside));
+}
+
 class Sights {
 public:
     Sights(const Camera& camera, glm::uvec2 size_px)
-        : eye_ws_(camera.eye_ws), world_from_clip_(glm::inverse(clipFromWorld(camera))), size_px_(size_px)
+        : eye_ws_(camera.eye_ws), world_from_clip_(glm::inverse(clipFromWorld(camera))), size_px_(size_px),
+          parallel_(glm::dvec3(glm::row(world_from_clip_, 3)) == glm::dvec3(0.0)), near_(camera.reversed_z ? 1.0 : 0.0)
     {
     }
-    // Unit, through a point of the picture; 0 where there is none.
-    [[nodiscard]] glm::dvec3 through(const glm::dvec2& pixel) const
+    // Through a point of the picture.
+    [[nodiscard]] SightLine through(const glm::dvec2& pixel) const
     {
         const glm::dvec2 ndc = pixel / size_px_ * 2.0 - 1.0;
-        const glm::dvec4 h = world_from_clip_ * glm::dvec4(ndc, 0.5, 1.0);
-        const glm::dvec3 way = glm::dvec3(h) / h.w - eye_ws_;
+        const glm::dvec3 from = parallel_ ? pointAt(ndc, near_) : eye_ws_;
+        const glm::dvec3 way = pointAt(ndc, parallel_ ? 1.0 - near_ : 0.5) - from;
         const double length = positive(glm::length(way));
-        return length > 0.0 ? way / length : glm::dvec3(0.0);
-    }
-    // Squared distance of a point to a line of sight.
-    [[nodiscard]] double distance2(const glm::dvec3& point_ws, const glm::dvec3& way) const
-    {
-        const glm::dvec3 to = point_ws - eye_ws_;
-        const glm::dvec3 beside = to - way * positive(glm::dot(to, way));
-        return positive(glm::dot(beside, beside));
+        return {from, length > 0.0 ? way / length : glm::dvec3(0.0)};
     }
 
 private:
+    [[nodiscard]] glm::dvec3 pointAt(const glm::dvec2& ndc, double depth) const
+    {
+        const glm::dvec4 h = world_from_clip_ * glm::dvec4(ndc, depth, 1.0);
+        return glm::dvec3(h) / h.w;
+    }
+
     glm::dvec3 eye_ws_;
     glm::dmat4 world_from_clip_;
     glm::dvec2 size_px_;
+    bool parallel_; // orthographic
+    double near_;   // depth at the near plane
 };
 
 // A tile's lights with maps, whose weights are their importances so far.
@@ -148,7 +163,7 @@ void listCompactMask(const Frame& frame, const Plan& plan, const CompactMaskRule
     const Sights sights(frame.camera, size_px);
     for (std::size_t tile = 0; tile < out.masked.size(); ++tile) {
         const glm::dvec2 place(static_cast<double>(tile % out.tiles.x), static_cast<double>(tile / out.tiles.x));
-        const glm::dvec3 way = sights.through((place + 0.5) * static_cast<double>(rule.side_px));
+        const SightLine line = sights.through((place + 0.5) * static_cast<double>(rule.side_px));
         std::uint32_t begin = out.first[tile]; // where the next light with a map goes
         std::uint32_t end = out.first[tile + 1];
         for (std::uint32_t i = out.first[tile]; i < out.first[tile + 1]; ++i) {
@@ -158,7 +173,7 @@ void listCompactMask(const Frame& frame, const Plan& plan, const CompactMaskRule
                 continue;
             }
             const Source source = sourceOf(frame.lights[light], scene_ws);
-            const double importance = importanceOf(source, sights.distance2(source.position_ws, way));
+            const double importance = importanceOf(source, distance2(line, source.position_ws));
             out.lights[begin++] = {light, 0, static_cast<float>(std::min(importance, 1e30))};
         }
         out.masked[tile] = begin - out.first[tile];

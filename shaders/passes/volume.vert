@@ -58,5 +58,12 @@ void main()
     } else {
         p = volumeWall(corner, pointOf(element.x), pointOf(element.y), left, casts(element.w, mirrored), place);
     }
+    // Of a lamp's volume all that is at infinity is an orthographic eye's w = 0, so its dark caps would not be drawn. They
+    // are as far away as the casters' distance from the lamp times this.
+    const float kFarTimes = 65536.0;
+    bool orthographic = clip_from_eye[0].w == 0.0 && clip_from_eye[1].w == 0.0 && clip_from_eye[2].w == 0.0;
+    if (orthographic && p.w == 0.0 && place.w != 0.0) {
+        p = vec4(p.xyz + place.xyz / kFarTimes, 1.0 / kFarTimes);
+    }
     gl_Position = clip_from_eye * vec4(p.xyz * kVolumePush, p.w);
 }

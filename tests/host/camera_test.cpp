@@ -37,6 +37,27 @@ TEST(CameraOf, HasReversedDepthAndYDown)
     EXPECT_NEAR(corner.y, -1.0, 1e-9);
 }
 
+TEST(CameraOf, OfAHeightIsOrthographic)
+{
+    Eye eye;
+    eye.position_ws = {1000.0, 2.0, 30.0};
+    eye.target_ws = {1000.0, 2.0, 0.0};
+    eye.height_m = 12.0;
+    eye.near_m = 0.5;
+    eye.far_m = 200.0;
+    const Camera camera = cameraOf(eye, 200, 100, kBounds);
+    for (const double depth : {0.5, 50.0, 200.0}) { // the same at every depth
+        const glm::dvec3 corner = project(camera, {1012.0, 8.0, 30.0 - depth});
+        EXPECT_NEAR(corner.x, 1.0, 1e-9);
+        EXPECT_NEAR(corner.y, -1.0, 1e-9);
+        EXPECT_NEAR(corner.z, (200.0 - depth) / 199.5, 1e-9);
+    }
+    EXPECT_EQ(pictureHeight(eye, 7.0), 12.0);
+    eye.height_m = 0.0;
+    eye.fov_y_rad = 1.0;
+    EXPECT_NEAR(pictureHeight(eye, 7.0), 14.0 * std::tan(0.5), 1e-12);
+}
+
 TEST(CameraOf, PicksAFarPlaneBehindEverything)
 {
     Eye eye;

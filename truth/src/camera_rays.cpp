@@ -16,8 +16,32 @@ CameraRays::CameraRays(const SceneGeometry& geometry, const View& view)
 {
 }
 
+CameraRays::Ray CameraRays::parallelThrough(double clip_x, double clip_y) const
+{
+    const auto pointAt = [&](double depth) {
+        const glm::dvec4 end = view_.world_from_clip * glm::dvec4(clip_x, clip_y, depth, 1.0);
+        return glm::dvec3(end) / end.w - view_.eye_ws;
+    };
+    const glm::dvec3 a = pointAt(0.0);
+    const glm::dvec3 b = pointAt(1.0);
+    const glm::dvec3 along = glm::normalize(b - a);
+    const double at_a = glm::dot(a, along);
+    const double at_b = glm::dot(b, along);
+    const bool from_a = std::abs(at_a) <= std::abs(at_b);
+    Ray ray;
+    ray.from = a - along * at_a;
+    ray.direction = from_a ? along : -along;
+    ray.near_m = std::max(from_a ? at_a : -at_b, 0.0);
+    ray.far_m = from_a ? at_b : -at_a;
+    return ray;
+}
+
 CameraRays::Ray CameraRays::through(double clip_x, double clip_y) const
 {
+    const glm::dmat4& m = view_.world_from_clip;
+    if (m[0].w == 0.0 && m[1].w == 0.0 && m[2].w == 0.0) {
+        return parallelThrough(clip_x, clip_y);
+    }
     // The middle of the depth range is in front of the camera whichever end of it is near, and not at infinity.
     const glm::dvec4 middle = view_.world_from_clip * glm::dvec4(clip_x, clip_y, 0.5, 1.0);
     Ray ray;
@@ -45,9 +69,10 @@ std::optional<CameraRays::Seen> CameraRays::trace(const glm::dvec2& point_px) co
     context.from_camera = true;
     context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     RTCRayHit query{};
-    query.ray.org_x = static_cast<float>(eye_rel_.x);
-    query.ray.org_y = static_cast<float>(eye_rel_.y);
-    query.ray.org_z = static_cast<float>(eye_rel_.z);
+    const glm::dvec3 from_rel = eye_rel_ + ray.from;
+    query.ray.org_x = static_cast<float>(from_rel.x);
+    query.ray.org_y = static_cast<float>(from_rel.y);
+    query.ray.org_z = static_cast<float>(from_rel.z);
     query.ray.dir_x = static_cast<float>(ray.direction.x);
     query.ray.dir_y = static_cast<float>(ray.direction.y);
     query.ray.dir_z = static_cast<float>(ray.direction.z);
@@ -74,11 +99,11 @@ std::optional<CameraRays::Seen> CameraRays::surfaceAt(const Ray& ray, const RTCH
     }
     // Embree says which triangle; where on it is found again in double precision, because its distance is a float.
     const double facing = glm::dot(triangle->front, ray.direction);
-    const double distance_m = glm::dot(triangle->rel[0] - eye_rel_, triangle->front) / facing;
+    const double distance_m = glm::dot(triangle->rel[0] - eye_rel_ - ray.from, triangle->front) / facing;
     if (!std::isfinite(distance_m) || distance_m <= 0.0) {
         return {}; // seen exactly edge on
     }
-    seen.point = ray.direction * distance_m;
+    seen.point = ray.from + ray.direction * distance_m;
     seen.normal = facing < 0.0 ? triangle->front : -triangle->front;
     seen.smooth_normal =
         smoothPoint(*triangle, geometry_.vertexNormals(seen.object, seen.triangle), eye_rel_ + seen.point, seen.normal)

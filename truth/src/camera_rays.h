@@ -29,11 +29,13 @@ public:
 
 private:
     struct Ray {
+        glm::dvec3 from{0.0};      // relative to the eye: the eye itself, but of an orthographic camera beside it
         glm::dvec3 direction{0.0}; // unit
         double near_m = 0.0;
         double far_m = 0.0; // may be +infinity
     };
     [[nodiscard]] Ray through(double clip_x, double clip_y) const;
+    [[nodiscard]] Ray parallelThrough(double clip_x, double clip_y) const;
     [[nodiscard]] std::optional<Seen> surfaceAt(const Ray& ray, const RTCHit& hit) const;
 
     const SceneGeometry& geometry_;

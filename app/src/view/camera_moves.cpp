@@ -69,7 +69,7 @@ host::Eye panned(const host::Eye& eye, const glm::dvec2& pixels, double picture_
 {
     const Axes axes = axesOf(eye);
     const double distance = glm::length(eye.target_ws - eye.position_ws);
-    const double metres_per_px = 2.0 * distance * std::tan(eye.fov_y_rad / 2.0) / picture_height_px;
+    const double metres_per_px = host::pictureHeight(eye, distance) / picture_height_px;
     const glm::dvec3 by = (axes.up * pixels.y - axes.right * pixels.x) * metres_per_px;
     host::Eye moved = eye;
     moved.position_ws += by;
@@ -81,7 +81,11 @@ host::Eye dollied(const host::Eye& eye, double steps)
 {
     constexpr double kLeft = 0.9;
     host::Eye moved = eye;
-    moved.position_ws = eye.target_ws + (eye.position_ws - eye.target_ws) * std::pow(kLeft, steps);
+    if (eye.height_m > 0.0) { // nearer things are no larger, and what is behind the eye is cut away
+        moved.height_m *= std::pow(kLeft, steps);
+    } else {
+        moved.position_ws = eye.target_ws + (eye.position_ws - eye.target_ws) * std::pow(kLeft, steps);
+    }
     return moved;
 }
 
@@ -95,12 +99,16 @@ host::Eye flown(const host::Eye& eye, const glm::dvec3& metres)
     return moved;
 }
 
-glm::dvec3 rayOf(const glm::dmat4& clip_from_world, const glm::dvec3& eye_ws, const glm::dvec2& point)
+SightLine lineThrough(const glm::dmat4& clip_from_world, const glm::dvec2& point)
 {
-    // Reversed depth: any place in front of the eye is on the ray, half depth is one.
-    const glm::dvec4 clip(2.0 * point.x - 1.0, 2.0 * point.y - 1.0, 0.5, 1.0);
-    const glm::dvec4 place = glm::inverse(clip_from_world) * clip;
-    return glm::normalize(glm::dvec3(place) / place.w - eye_ws);
+    // Reversed depth: from the near plane to any other place, half depth is one.
+    const glm::dmat4 world_from_clip = glm::inverse(clip_from_world);
+    const auto placeAt = [&](double depth) {
+        const glm::dvec4 place = world_from_clip * glm::dvec4(2.0 * point.x - 1.0, 2.0 * point.y - 1.0, depth, 1.0);
+        return glm::dvec3(place) / place.w;
+    };
+    const glm::dvec3 from = placeAt(1.0);
+    return {from, glm::normalize(placeAt(0.5) - from)};
 }
 
 std::optional<glm::dvec2> pointOf(const glm::dmat4& clip_from_world, const glm::dvec3& place_ws)
@@ -116,14 +124,17 @@ SunDome domeOf(const host::Eye& eye)
 {
     constexpr double kShare = 0.55; // of half the picture's height
     const double distance = glm::length(eye.target_ws - eye.position_ws);
-    return {eye.target_ws, kShare * distance * std::tan(std::min(eye.fov_y_rad, 2.0) / 2.0)};
+    host::Eye seen = eye;
+    seen.fov_y_rad = std::min(eye.fov_y_rad, 2.0);
+    return {eye.target_ws, kShare * 0.5 * host::pictureHeight(seen, distance)};
 }
 
-glm::dvec3 sunFrom(const SunDome& dome, const glm::dvec3& eye_ws, const glm::dvec3& ray)
+glm::dvec3 sunFrom(const SunDome& dome, const SightLine& line)
 {
-    const glm::dvec3 to_centre = dome.centre_ws - eye_ws;
+    const glm::dvec3& ray = line.along;
+    const glm::dvec3 to_centre = dome.centre_ws - line.from_ws;
     const double along = glm::dot(to_centre, ray);
-    const glm::dvec3 nearest = eye_ws + ray * along - dome.centre_ws;
+    const glm::dvec3 nearest = line.from_ws + ray * along - dome.centre_ws;
     const double missed = glm::length(nearest);
     glm::dvec3 towards = nearest;
     if (missed < dome.radius_m) {

@@ -21,13 +21,18 @@ namespace gnomon::app::view {
 [[nodiscard]] host::Eye looked(const host::Eye& eye, const glm::dvec2& turn);
 /// Eye and target move so that what is as far as the target follows the pointer; `pixels` to the right and downwards.
 [[nodiscard]] host::Eye panned(const host::Eye& eye, const glm::dvec2& pixels, double picture_height_px);
-/// Towards the target, and never to it: `steps` of a wheel, each a tenth of what is left. Below 0: away.
+/// Towards the target, and never to it: `steps` of a wheel, each a tenth of what is left. Below 0: away. An
+/// orthographic eye stays, and its picture's height shrinks.
 [[nodiscard]] host::Eye dollied(const host::Eye& eye, double steps);
 /// Eye and target, by metres along right, up and forwards of the eye.
 [[nodiscard]] host::Eye flown(const host::Eye& eye, const glm::dvec3& metres);
 
-/// The ray of a point of the picture, both in [0, 1] from its top left: a unit vector.
-[[nodiscard]] glm::dvec3 rayOf(const glm::dmat4& clip_from_world, const glm::dvec3& eye_ws, const glm::dvec2& point);
+struct SightLine {
+    glm::dvec3 from_ws{0.0}; // on the near plane
+    glm::dvec3 along{0.0};   // unit
+};
+/// What lies behind a point of the picture, both in [0, 1] from its top left.
+[[nodiscard]] SightLine lineThrough(const glm::dmat4& clip_from_world, const glm::dvec2& point);
 /// A point of the world in the picture; nothing behind the eye.
 [[nodiscard]] std::optional<glm::dvec2> pointOf(const glm::dmat4& clip_from_world, const glm::dvec3& place_ws);
 
@@ -38,8 +43,8 @@ struct SunDome {
 };
 /// Of a size that it has the same share of the picture wherever the eye is.
 [[nodiscard]] SunDome domeOf(const host::Eye& eye);
-/// Which way light travels from the place of the dome that a ray meets first, or comes nearest to. Unit; never from
+/// Which way light travels from the place of the dome that a line meets first, or comes nearest to. Unit; never from
 /// below the horizon.
-[[nodiscard]] glm::dvec3 sunFrom(const SunDome& dome, const glm::dvec3& eye_ws, const glm::dvec3& ray);
+[[nodiscard]] glm::dvec3 sunFrom(const SunDome& dome, const SightLine& line);
 
 } // namespace gnomon::app::view

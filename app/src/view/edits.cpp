@@ -118,7 +118,8 @@ Changes changesTo(const host::Eye& eye)
     return {{"eye", textOf(eye.position_ws)},
             {"target", textOf(eye.target_ws)},
             {"up", textOf(eye.up_ws)},
-            {"fov", fmt::format("{}", glm::degrees(eye.fov_y_rad))}};
+            {"fov", eye.height_m > 0.0 ? std::string() : fmt::format("{}", glm::degrees(eye.fov_y_rad))},
+            {"ortho", eye.height_m > 0.0 ? fmt::format("{}", eye.height_m) : std::string()}};
 }
 
 namespace {

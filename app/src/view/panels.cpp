@@ -176,6 +176,7 @@ void scenePanel(Viewer& viewer, PanelState& state)
     const int camera = widgets.pick("camera", viewer.shot().camera, cameras);
     if (camera >= 0) {
         viewer.change({{"fov", ""},
+                       {"ortho", ""},
                        {"eye", ""},
                        {"target", ""},
                        {"up", ""},
@@ -203,7 +204,7 @@ void scenePanel(Viewer& viewer, PanelState& state)
         if (animation >= 0) {
             viewer.change({{"animation", animations[static_cast<std::size_t>(animation)]}});
         }
-        for (const std::string_view key : {"fov", "ground", "up-axis", "override-material"}) {
+        for (const std::string_view key : {"fov", "ortho", "ground", "up-axis", "override-material"}) {
             widgets.setting(viewer, *findSetting(key));
         }
         ImGui::TreePop();

@@ -109,8 +109,8 @@ void Pointer::drag(Viewer& viewer, Shown& shown, const PictureArea& area)
     const glm::dvec2 in = (pointerAt() - area.least) / area.size;
     if (grip_ == Grip::sun && moved() != glm::dvec2(0.0)) {
         const host::Eye eye = viewer.aimed();
-        const glm::dvec3 ray = rayOf(viewer.camera().clip_from_world, eye.position_ws, in);
-        viewer.change({{"sun", textOf(sunFrom(domeOf(eye), eye.position_ws, ray))}});
+        const SightLine line = lineThrough(viewer.camera().clip_from_world, in);
+        viewer.change({{"sun", textOf(sunFrom(domeOf(eye), line))}});
     } else if (grip_ == Grip::divider) {
         shown.divider = static_cast<float>(std::clamp(in.x, 0.0, 1.0));
     } else if (grip_ == Grip::camera) {

@@ -3,6 +3,7 @@
 
 #include "app/preset.h"
 #include "command_text.h"
+#include "framing.h"
 #include "result_json.h"
 
 #include "files/files.h"
@@ -209,7 +210,12 @@ bool Viewer::change(const Changes& changes)
 bool Viewer::frameAll()
 {
     const glm::dvec2 size(settings_.size_px);
-    return look(framedEye(shot(), shot().eye.fov_y_rad, size.x / size.y));
+    host::Eye eye = framedEye(shot(), shot().eye.fov_y_rad, size.x / size.y);
+    if (shot().eye.height_m > 0.0) {
+        eye.height_m = host::pictureHeight(eye, glm::distance(eye.position_ws, eye.target_ws));
+        eye = standingBack(eye, shot().state.bounds_ws);
+    }
+    return look(eye);
 }
 
 bool Viewer::open(const std::string& scene)
@@ -222,6 +228,7 @@ bool Viewer::open(const std::string& scene)
                                  {"target", ""},
                                  {"up", ""},
                                  {"fov", ""},
+                                 {"ortho", ""},
                                  {"sun", ""},
                                  {"spot", ""},
                                  {"point", ""},

@@ -49,14 +49,25 @@ vec3 tangentFromDepth(ivec2 pixel, ivec2 step_px, float depth, vec3 p)
     return before.z < after.z ? p - positionAt(pixel - step_px, before.x) : positionAt(pixel + step_px, after.x) - p;
 }
 
+// The way from the eye through a pixel's point, of any length. Where w does not change with depth the camera is
+// orthographic, and depth tells which way that is.
+vec3 sightTo(vec3 p)
+{
+    float away = GNOMON_SURFACE_SCREEN.fade.z * 2.0 - 1.0; // depth at the far end is 0 or 1
+    return GNOMON_SURFACE_SCREEN.eye_w.z != 0.0
+               ? p
+               : vec3(GNOMON_SURFACE_SCREEN.eye_x.z, GNOMON_SURFACE_SCREEN.eye_y.z, GNOMON_SURFACE_SCREEN.eye_z.z) * away;
+}
+
 vec3 normalFromDepth(ivec2 pixel, float depth, vec3 p)
 {
     // Tangents as shares of the distance, which no size of the scene changes.
     float k = inversesqrt(dot(p, p));
     vec3 n = cross(tangentFromDepth(pixel, ivec2(1, 0), depth, p) * k, tangentFromDepth(pixel, ivec2(0, 1), depth, p) * k);
     float l = length(n);
-    n = l > 0.0 ? n / l : normalize(-p);
-    return dot(n, p) > 0.0 ? -n : n; // towards the eye
+    vec3 sight = sightTo(p);
+    n = l > 0.0 ? n / l : normalize(-sight);
+    return dot(n, sight) > 0.0 ? -n : n; // towards the eye
 }
 
 #endif
