@@ -66,7 +66,8 @@ void noteSizesWithoutEffect(Shot& shot, const Settings& settings, std::span<cons
 /// The frame that the library plans, over objects filled from the state (host::fillObjectSet).
 [[nodiscard]] std::vector<Light> castersOf(const Shot& shot);
 
-/// Of what is drawn, without a ground that was put in and without surroundings: a wide ground, a dome (surroundings.h).
+/// Around what is drawn, without a ground that was put in and without surroundings: a wide ground, a dome
+/// (surroundings.h).
 [[nodiscard]] Aabb modelBounds(const Shot& shot);
 /// The shot's outlook, from as near as all of the model is in the picture, with its shadow on the ground if the first
 /// light is a sun; of a low sun's long shadow a part.

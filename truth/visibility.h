@@ -42,8 +42,8 @@ struct Light {
 /// ((x + 0.5) / width * 2 - 1, (y + 0.5) / height * 2 - 1) of clip space, y down.
 struct View {
     glm::dvec3 eye_ws{0.0};
-    /// Of any camera whose depth range is [0, 1]. What is outside that range is not seen. The eye of an orthographic
-    /// one is nearer to its near plane than to its far one.
+    /// Any camera's whose depth range is [0, 1]. Nothing outside that range is seen. The eye of an orthographic one is
+    /// nearer to its near plane than to its far one.
     glm::dmat4 world_from_clip{1.0};
     glm::uvec2 size_px{0}; // >= 1 each
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the views of `--debug` are made of, those that colour receivers by what the plan has for them, and that of
-// the octree.
+// The parts of the views of `--debug`: those that colour receivers by what the plan has for them, and that of the
+// octree.
 #pragma once
 
 #include "app/shot.h"

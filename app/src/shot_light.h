@@ -7,10 +7,10 @@
 
 namespace gnomon::app {
 
-/// Of more lights than a frame can have, keeps those in sight (host::lightsInSight). After camera and lights are
-/// placed.
+/// Keeps the lights in sight (host::lightsInSight), where there are more than a frame can have. It comes after camera
+/// and lights are placed.
 void chooseLights(Shot& shot, const Settings& settings);
-/// What to say where Shot::lights_left_out is not 0.
+/// The notice where Shot::lights_left_out is not 0.
 [[nodiscard]] std::string leftOutSentence(const Shot& shot);
 
 } // namespace gnomon::app

@@ -57,7 +57,7 @@ vec3 seenBy(uint light, vec3 p, Surface surface, vec3 own_tint)
     return vec3(1.0);
 }
 
-// Of a blended surface that casts, which must not tint itself.
+// The tint that this blended surface has put into the map, if it casts: it must not tint itself.
 vec3 ownTint(vec4 base)
 {
     if (kOpaque || ids.z == 0u) {

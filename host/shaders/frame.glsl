@@ -17,8 +17,8 @@ layout(set = 0, binding = 0, std140) uniform FrameData
 {
     mat4 clip_from_eye;
     // Eye-relative position of pixel p at view depth d: (ray_x * p.x + ray_y * p.y + ray_0) * d; of an orthographic
-    // camera that without the d, and d along the view (ray.glsl). w of the first: radius of ambient occlusion, m. Of the
-    // others, where the camera is orthographic: view depth = ray_y.w * stored depth + ray_0.w; else 0.
+    // camera that without the d, and d along the view (ray.glsl). w of the first: radius of ambient occlusion, m. The
+    // others' w, where the camera is orthographic: view depth = ray_y.w * stored depth + ray_0.w; else 0.
     vec4 ray_x;
     vec4 ray_y;
     vec4 ray_0;

@@ -51,7 +51,7 @@ private:
     std::map<std::tuple<std::uint32_t, std::uint32_t, bool>, std::uint32_t> ids_; // by batch, cut and mirrored
 };
 
-/// Of each material: vertex colours change where it casts, or what it lets through.
+/// For each material: do vertex colours change where it casts, or the light that it lets through?
 std::vector<bool> colouredMaterials(const Materials& materials, const scene::Scene& scene)
 {
     std::vector<bool> coloured(materials.all().size(), false);
@@ -126,7 +126,7 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
     }
 }
 
-/// Of each object.
+/// One number for each object.
 std::vector<std::uint32_t> DrawTable::numberCuts(const scene::State& state)
 {
     using Numbers = std::array<float, 8>; // which have an order

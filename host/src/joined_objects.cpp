@@ -28,7 +28,7 @@ std::uint64_t placeOf(const glm::vec3& p_ws, const Aabb& bounds_ws)
     std::uint64_t place = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const double share = (static_cast<double>(p_ws[axis]) - static_cast<double>(bounds_ws.min[axis])) / longest;
-        place = place << 21U | static_cast<std::uint64_t>(std::clamp(share, 0.0, 1.0) * kCells + 0.5);
+        place = place << 21U | static_cast<std::uint64_t>(std::llround(std::clamp(share, 0.0, 1.0) * kCells));
     }
     return place;
 }

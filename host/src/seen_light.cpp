@@ -85,15 +85,16 @@ double seenAs(const glm::dvec3& p_ws, double size_m, const Sight& sight)
 {
     const glm::dvec3 to = p_ws - sight.eye_ws;
     const double depth_m = glm::dot(to, sight.forward_ws);
-    if (!(depth_m > 0.0)) {
+    if (!(depth_m > (sight.orthographic ? sight.near_m : 0.0))) {
         return 0.0;
     }
-    const double beside = std::max(std::abs(glm::dot(to, sight.right_ws)) / sight.tan_x,
-                                   std::abs(glm::dot(to, sight.up_ws)) / sight.tan_y) /
-                          depth_m;
+    const double scale = sight.orthographic ? 1.0 : depth_m;
+    const double beside = std::max(std::abs(glm::dot(to, sight.right_ws)) / sight.half_x,
+                                   std::abs(glm::dot(to, sight.up_ws)) / sight.half_y) /
+                          scale;
     const double inside = 1.0 - glm::smoothstep(1.0, 4.0, beside);
     constexpr double kLarge = 0.25; // of half the picture's height: a patch that counts in full
-    return inside * std::min(size_m / (kLarge * sight.tan_y * depth_m), 1.0);
+    return inside * std::min(size_m / (kLarge * sight.half_y * scale), 1.0);
 }
 
 } // namespace

@@ -58,8 +58,8 @@ void main()
     } else {
         p = volumeWall(corner, pointOf(element.x), pointOf(element.y), left, casts(element.w, mirrored), place);
     }
-    // Of a lamp's volume all that is at infinity is an orthographic eye's w = 0, so its dark caps would not be drawn. They
-    // are as far away as the casters' distance from the lamp times this.
+    // For an orthographic eye, a lamp's volume has w = 0 at infinity, so its dark caps would not be drawn. They are as far
+    // away as the casters' distance from the lamp times this.
     const float kFarTimes = 65536.0;
     bool orthographic = clip_from_eye[0].w == 0.0 && clip_from_eye[1].w == 0.0 && clip_from_eye[2].w == 0.0;
     if (orthographic && p.w == 0.0 && place.w != 0.0) {

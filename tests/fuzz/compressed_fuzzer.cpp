@@ -17,7 +17,7 @@
 
 namespace {
 
-/// What a stream is said to be.
+/// The stream as its file describes it.
 struct Said {
     unsigned kind = 0;
     unsigned stride = 0;

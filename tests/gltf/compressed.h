@@ -11,7 +11,7 @@ struct Hill {
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;
 
-    /// Of the surface at a point of it.
+    /// The surface's normal at a point of it.
     [[nodiscard]] glm::vec3 normalAt(const glm::vec3& point) const;
 };
 

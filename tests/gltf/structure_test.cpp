@@ -301,7 +301,7 @@ TEST(GltfStructure, SpecularGlossinessHasColourAndCoverage)
     EXPECT_EQ(scene.materials[0].metallic, 0.0F);
 }
 
-/// With what is below it, whatever that says of itself. What moves others and what the camera looks from stays.
+/// With what is below it, whatever that says of itself. A node that moves others stays, and the camera's.
 TEST(GltfStructure, HiddenNodesShowAndLightNothing)
 {
     FileBuilder file;

@@ -85,7 +85,7 @@ protected:
     }
 };
 
-/// Of the sun and of the spot light, whose maps need shaders of their own.
+/// For the sun and for the spot light, whose maps need shaders of their own.
 TEST_P(VertexColours, DecideWhatIsMasked)
 {
     for (const MapFormat map : {MapFormat::d32f, MapFormat::r32f}) {

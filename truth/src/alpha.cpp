@@ -76,7 +76,7 @@ Value sample(const scene::Image& image, const scene::Texture& sampler, const glm
     return glm::mix(upper, lower, lower_share);
 }
 
-/// What alpha is compared with. Sums of weights and texels are off by their last bits, and alpha that is equal to the
+/// Alpha is compared with this. Sums of weights and texels are off by their last bits, and alpha that is equal to the
 /// cutoff is solid; what rasterisers store of a vertex's colour is a number of 16 bits at best.
 float limitOf(float cutoff)
 {

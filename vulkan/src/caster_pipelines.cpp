@@ -29,7 +29,7 @@ struct VertexCodes {
     {                                                                                                                  \
         spirv::name##_vert, spirv::name##_masked_vert, spirv::name##_clipped_vert, spirv::name##_masked_clipped_vert   \
     }
-// What is masked or clipped hands on the metric, whether a fragment shader takes it or not.
+// Vertex shaders of masked or clipped casters hand on the metric, whether a fragment shader takes it or not.
 #define GNOMON_ORTHOGRAPHIC(name)                                                                                      \
     {                                                                                                                  \
         spirv::name##_vert, spirv::name##_metric_masked_vert, spirv::name##_metric_clipped_vert,                       \

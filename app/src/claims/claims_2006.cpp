@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What T. Forsyth claims of projections. claims_2006_frustums.cpp has those of frustums,
+// T. Forsyth's claims about projections. claims_2006_frustums.cpp has those about frustums,
 // claims_2006_depth.cpp and claims_2006_ids.cpp the rest.
 #include "claim.h"
 #include "claim_runs.h"

@@ -48,7 +48,7 @@ constexpr std::array<std::string_view, 7> kPopping{
     "240x135 --truth hard --frames 0-7 --path pan --techniques hard+multi,hard+multi+snap"};
 constexpr std::string_view kDuelPlan = "gnomon plan ring --camera duel --partition multi --json";
 
-/// Of the worst frame of a path, with frustums that are held by that with free ones.
+/// The pop in the worst frame of a path: held frustums' by free ones'.
 double popLeft(const Runs& runs, std::size_t run)
 {
     return runs.of(run, "hard+multi+snap", "/stability/pop") / runs.of(run, "hard+multi", "/stability/pop");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What T. Forsyth claims of many frustums a lamp: a part of claimsOf2006().
+// T. Forsyth's claims about many frustums a lamp: a part of claimsOf2006().
 #pragma once
 
 #include "claim.h"

@@ -10,7 +10,7 @@ namespace {
 
 using Runs = ClaimRuns;
 
-/// What the article's lights are, which do not move: /static_time_ms has maps that hold kept.
+/// The article's lights do not move: in /static_time_ms the maps that hold are kept.
 constexpr std::string_view kStillLights =
     "gnomon bench spotlit --preset plain --camera stage --size 640x360 --map-size 512 --repetitions 21 --warmup 1 "
     "--techniques pcf+pcf.kernel=7x7,vsm";

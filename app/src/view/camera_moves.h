@@ -31,7 +31,7 @@ struct SightLine {
     glm::dvec3 from_ws{0.0}; // on the near plane
     glm::dvec3 along{0.0};   // unit
 };
-/// What lies behind a point of the picture, both in [0, 1] from its top left.
+/// The line behind a point of the picture; the point in [0, 1] from its top left.
 [[nodiscard]] SightLine lineThrough(const glm::dmat4& clip_from_world, const glm::dvec2& point);
 /// A point of the world in the picture; nothing behind the eye.
 [[nodiscard]] std::optional<glm::dvec2> pointOf(const glm::dmat4& clip_from_world, const glm::dvec3& place_ws);

@@ -43,7 +43,7 @@ void readShape(const JsonView& view, Accessor& accessor)
     type.fail("the accessor type must be one of SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4");
 }
 
-/// What primitives use accessors for, by accessor and view. Mistakes are told when the primitives are read.
+/// The uses that primitives make of accessors, by accessor and view. Mistakes are told when the primitives are read.
 struct Uses {
     std::vector<bool> vertices;
     std::vector<bool> indices;

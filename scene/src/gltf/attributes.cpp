@@ -85,7 +85,7 @@ std::vector<Vector> readVectors(Document& document, const Accessor& accessor)
     return out;
 }
 
-/// What was found wrong with the lengths of vectors that ought to be units.
+/// The faults found in the lengths of vectors that ought to be units.
 struct Lengths {
     bool inexact = false;
     std::size_t zeros = 0;

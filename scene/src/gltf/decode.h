@@ -29,7 +29,7 @@ using SizeCheck = std::function<void(std::uint32_t width, std::uint32_t height)>
 /// Fills width, height and rgba of `image`. Returns what is wrong with the data, or an empty string.
 [[nodiscard]] std::string decodePng(std::span<const std::byte> bytes, const SizeCheck& check, Image& image);
 [[nodiscard]] std::string decodeJpeg(std::span<const std::byte> bytes, const SizeCheck& check, Image& image);
-/// Of an animation nothing is decoded.
+/// Decodes nothing of an animation.
 [[nodiscard]] std::string decodeWebp(std::span<const std::byte> bytes, const SizeCheck& check, Image& image);
 
 using Decoder = std::string (*)(std::span<const std::byte> bytes, const SizeCheck& check, Image& image);

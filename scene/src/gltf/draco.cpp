@@ -37,8 +37,8 @@ bool readCounts(draco::DecoderBuffer ahead, draco::MeshEncoderMethod method, Cou
            ahead.Decode(&counts.seams) && vertices / 3 <= counts.faces;
 }
 
-/// A decoder of the library that asks the context before it allocates. What the context throws is kept until the
-/// library has returned.
+/// A decoder of the library that asks the context before it allocates. An exception of the context is
+/// kept until the library has returned.
 template <typename Base, draco::MeshEncoderMethod kMethod>
 class Bounded : public Base {
 public:

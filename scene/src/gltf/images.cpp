@@ -49,7 +49,7 @@ void makeWhite(Image& image)
     image.rgba.assign(4, 0xFF);
 }
 
-/// What the data are; fails where they are not what the file says, or none at all.
+/// The format of the data; fails where it is not the one that the file says, or none at all.
 ImageFormat formatOf(const Encoded& encoded, const std::string& declared)
 {
     const ImageFormat format = sniff(encoded.bytes);

@@ -62,7 +62,7 @@ void readMetallicRoughness(const Document& document, const JsonView& view, Mater
     material.metallic_roughness_texture = readUse(document, view, "metallicRoughnessTexture");
 }
 
-/// Of what came before metallic-roughness: diffuse colour with its alpha, and how smooth it is. It goes before
+/// Reads the older model: diffuse colour with its alpha, and how smooth it is. It goes before
 /// `pbrMetallicRoughness`, which is a substitute then.
 void readSpecularGlossiness(const Document& document, const JsonView& view, Material& material)
 {

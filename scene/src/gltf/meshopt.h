@@ -10,7 +10,7 @@ namespace gnomon::scene::gltf {
 [[nodiscard]] std::optional<JsonView> meshoptOf(const JsonView& object);
 /// Whether a buffer is a place for what its views unpack to; what it holds is for readers without the extension.
 [[nodiscard]] bool isMeshoptFallback(const JsonView& buffer);
-/// What the buffer view of `packed`, its extension, holds; kept by the document. `length`: what the view says.
+/// The content of the buffer view of `packed`, its extension; kept by the document. `length`: the view's own.
 /// Empty where the buffer has no content.
 [[nodiscard]] std::span<const std::byte> unpackMeshopt(Document& document, const JsonView& packed,
                                                        std::uint64_t length);

@@ -15,14 +15,14 @@ struct Tree {
 [[nodiscard]] JsonView nodeView(const Document& document, std::size_t i);
 [[nodiscard]] Tree readTree(const Document& document);
 
-/// What the scene to show is made of.
+/// The parts of the scene to show.
 struct ScenePart {
     std::string name;                 // empty: it has none
     std::vector<std::uint32_t> nodes; // parents first
     std::vector<bool> shown;          // of all nodes: named, or below one that is; the others only move these
 };
 
-/// Of scene `scene`, else of the first, else of all nodes. A node's place follows from the nodes above it, and a
+/// The nodes of scene `scene`, else of the first, else all. A node's place follows from the nodes above it, and a
 /// skinned mesh's from its joints, so these come along wherever they are. `all`: the file's nodes with their skins.
 [[nodiscard]] ScenePart pickScene(const Document& document, const Tree& tree, const std::vector<Node>& all);
 

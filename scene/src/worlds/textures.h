@@ -29,7 +29,7 @@ template <typename Shade>
             const glm::vec4 c = shade(glm::vec2((static_cast<float>(x) + 0.5F) / static_cast<float>(side),
                                                 (static_cast<float>(y) + 0.5F) / static_cast<float>(side)));
             for (int k = 0; k < 4; ++k) {
-                *out++ = static_cast<std::uint8_t>(std::clamp(c[k], 0.0F, 1.0F) * 255.0F + 0.5F);
+                *out++ = static_cast<std::uint8_t>(std::lround(std::clamp(c[k], 0.0F, 1.0F) * 255.0F));
             }
         }
     }

@@ -41,10 +41,10 @@ struct CasterBatch {
     /// colour, linear when sampled, and must be there: a white texel where the material has none. `tint` multiplies it.
     bool blended = false;
     glm::vec4 tint{1.0F}; // linear colour and alpha; blended batches alone
-    /// CasterVertices::colour multiplies `texture` and `tint`. Of a masked batch its alpha alone counts, of one without
-    /// a texture nothing.
+    /// CasterVertices::colour multiplies `texture` and `tint`. In a masked batch its alpha alone counts, and
+    /// nothing in one without a texture.
     bool vertex_colours = false;
-    /// Of blended batches: stained glass, behind which 1 - alpha (1 - colour) goes on (gnomon/shared/blended_tint.h).
+    /// For blended batches: stained glass, behind which 1 - alpha (1 - colour) goes on (gnomon/shared/blended_tint.h).
     bool stained = false;
     /// What cuts its objects, in the space of their vertices, before world_from_object: a point is not drawn where
     /// dot(plane.xyz, p) + plane.w < 0 for either plane. Finite; those here by default cut nothing. A mesh that is cut
