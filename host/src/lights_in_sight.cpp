@@ -22,8 +22,8 @@ double outsideOf(const Frustum& view, const glm::dvec3& p_ws)
     return outside;
 }
 
-/// The light that it gives where the camera looks, roughly; 0 where its rays do not come into the view. A camera without a
-/// place of its own sees lights in its view equally.
+/// The light that it gives where the camera looks, roughly; 0 where its rays do not come into the view. A camera
+/// without a place of its own sees lights in its view equally.
 double weightOf(const ShadedLight& light, const Camera& camera, const Frustum& view, const Aabb& scene_ws)
 {
     const Light& caster = light.caster;

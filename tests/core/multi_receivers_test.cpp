@@ -135,7 +135,7 @@ void checkHeld(const RandomScene& scene, const Frame& frame, const Plan& plan, s
 
 TEST(MultiReceivers, HoldEachReceiverWithTheTexelsThatItWants)
 {
-    constexpr int kScenes = 10000;
+    constexpr int kScenes = kSanitized ? 1000 : 10000;
     test::Tally tally;
     Held held;
     for (int seed = 1; seed <= kScenes; ++seed) {

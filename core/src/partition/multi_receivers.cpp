@@ -33,6 +33,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kWidestTangent = 1.7320508;
 /// A receiver is cut into no more pieces: the faces of a cube.
 constexpr std::uint32_t kMostCuts = kCubeFaces;
+/// A light with so many frustums gets more only where none can turn to a receiver: rather coarse texels than none.
+constexpr std::size_t kEnoughCones = 16;
 /// The texels of a frustum that holds still are so much finer than its receivers want at first, so that they last.
 constexpr double kFinerHeld = 0.7;
 /// And one that begins to hold still takes so much of the largest map: what it holds will move.
@@ -312,16 +314,27 @@ void ReceiverCones::place(const Input& input, std::span<const ReceiverHome> home
     best.texel = best.coarsest = piece.texel;
     std::size_t in = cones_.size();
     double least = kInfinity;
-    for (std::size_t i = 0; i < cones_.size() && least > 0.0; ++i) {
-        ReceiverCone grown = cones_[i];
-        const double texels = grown.pieces > 0 ? sideOf(input, grown) * sideOf(input, grown) : 0.0;
-        const bool holds = grow(input, piece, grown);
-        const double more = sideOf(input, grown) * sideOf(input, grown) - texels;
-        if (holds && more < least) {
-            best = grown;
-            in = i;
-            least = more;
+    const auto find = [&](bool enough) {
+        for (std::size_t i = 0; i < cones_.size() && least > 0.0; ++i) {
+            ReceiverCone grown = cones_[i];
+            const double texels = grown.pieces > 0 ? sideOf(input, grown) * sideOf(input, grown) : 0.0;
+            bool holds = grow(input, piece, grown);
+            if (enough && !grown.held) {
+                const double half = halfOf(input, grown.cone);
+                grown.texel = std::max(grown.texel, 2.0 * half / (input.largest_texels * kLargestHeld));
+                holds = half < kInfinity;
+            }
+            const double more = sideOf(input, grown) * sideOf(input, grown) - texels;
+            if (holds && more < least) {
+                best = grown;
+                in = i;
+                least = more;
+            }
         }
+    };
+    find(false);
+    if (in == cones_.size() && cones_.size() >= kEnoughCones) {
+        find(true);
     }
     if (in == cones_.size()) {
         cones_.emplace_back();
