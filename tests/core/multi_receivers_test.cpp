@@ -3,6 +3,7 @@
 #include "hall.h"
 #include "plan_judge.h"
 #include "random_scenes.h"
+#include "sanitized.h"
 
 #include <gnomon/plan_views.h>
 
@@ -135,7 +136,7 @@ void checkHeld(const RandomScene& scene, const Frame& frame, const Plan& plan, s
 
 TEST(MultiReceivers, HoldEachReceiverWithTheTexelsThatItWants)
 {
-    constexpr int kScenes = kSanitized ? 1000 : 10000;
+    constexpr int kScenes = test::kSanitized ? 1000 : 10000;
     test::Tally tally;
     Held held;
     for (int seed = 1; seed <= kScenes; ++seed) {

@@ -4,6 +4,7 @@
 
 #include "app/command_line.h"
 #include "app/preset.h"
+#include "sanitized.h"
 #include "view/camera_moves.h"
 
 #include <glm/geometric.hpp>
@@ -276,16 +277,7 @@ TEST_F(ViewWindow, GivesCommandsThatDrawTheSame)
     }
 }
 
-#ifdef __has_feature // clang's; sanitizers are built by it
-#if __has_feature(address_sanitizer)
-#define GNOMON_TEST_IS_SLOW
-#endif
-#endif
-#ifdef GNOMON_TEST_IS_SLOW
-constexpr int kThings = 150; // each takes some ten times as long
-#else
-constexpr int kThings = 1000;
-#endif
+constexpr int kThings = test::kSanitized ? 150 : 1000;
 
 TEST_F(ViewWindow, StandsAThousandThingsThatAreDone)
 {
