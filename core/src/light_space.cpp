@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace gnomon {
@@ -150,14 +149,8 @@ double nearBefore(const Light& light, const ObjectSet& objects, std::vector<std:
     const LightExtent extent = extentOf(light, objects.bounds());
     const double side_m = 2.0 * extent.near_m;
     const glm::dvec3& p = light.position_ws;
-    std::array<Plane, 6> around;
-    for (int i = 0; i < 6; ++i) {
-        glm::dvec3 normal(0.0);
-        normal[i / 2] = i % 2 == 0 ? 1.0 : -1.0;
-        around[static_cast<std::size_t>(i)] = {normal, side_m - glm::dot(normal, p)};
-    }
     scratch.clear();
-    objects.query(around, ObjectSet::Want::casters, scratch);
+    objects.query(planesAround(p - side_m, p + side_m), ObjectSet::Want::casters, scratch);
     double nearest_m = side_m;
     double near_m = extent.near_m;
     for (const std::uint32_t object : scratch) {

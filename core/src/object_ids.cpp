@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -102,15 +101,9 @@ std::uint32_t boxUnder(const ObjectSet& objects, std::uint32_t object, const Fla
                        std::vector<std::uint32_t>& found)
 {
     const Aabb box = objects.bounds(object);
-    std::array<Plane, 6> around;
-    for (int i = 0; i < 6; ++i) {
-        glm::dvec3 normal(0.0);
-        normal[i / 2] = i % 2 == 0 ? 1.0 : -1.0;
-        const glm::dvec3 corner(i % 2 == 0 ? box.min : box.max);
-        around[static_cast<std::size_t>(i)] = {normal, flat.tolerance - glm::dot(normal, corner)};
-    }
     found.clear();
-    objects.query(around, ObjectSet::Want::casters, found);
+    objects.query(planesAround(glm::dvec3(box.min) - flat.tolerance, glm::dvec3(box.max) + flat.tolerance),
+                  ObjectSet::Want::casters, found);
     const auto under = std::ranges::find_if(found, [&](std::uint32_t other) {
         const Aabb bounds = objects.bounds(other);
         return !flatPlaceOf(bounds) && liesOn(box, flat, bounds, face);

@@ -103,14 +103,8 @@ double SeenLight::lampGives(const Light& lamp, const ObjectSet& objects, const S
                             std::span<const std::uint8_t> left_out)
 {
     const double reach_m = extentOf(lamp, objects.bounds()).reach_m;
-    std::array<Plane, 6> around;
-    for (int i = 0; i < 6; ++i) {
-        glm::dvec3 normal(0.0);
-        normal[i / 2] = i % 2 == 0 ? 1.0 : -1.0;
-        around[static_cast<std::size_t>(i)] = {normal, reach_m - glm::dot(normal, lamp.position_ws)};
-    }
     near_.clear();
-    objects.query(around, ObjectSet::Want::all, near_);
+    objects.query(planesAround(lamp.position_ws - reach_m, lamp.position_ws + reach_m), ObjectSet::Want::all, near_);
     boxes_.clear();
     for (const std::uint32_t object : near_) {
         if (left_out.empty() || left_out[object] == 0) {

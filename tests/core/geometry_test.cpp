@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace gnomon {
 namespace {
 
@@ -113,6 +115,25 @@ TEST(Classify, IsConservativeAndRightInTheClearCases)
                 EXPECT_TRUE(inside);
             }
         }
+    }
+}
+
+TEST(PlanesAround, HoldWhatIsInTheBox)
+{
+    const glm::dvec3 low(-1.0, 2.0, -7.0);
+    const glm::dvec3 high(3.0, 2.5, 11.0);
+    const auto inside = [planes = planesAround(low, high)](const glm::dvec3& p) {
+        return std::ranges::all_of(planes, [&](const Plane& plane) { return plane.distance(p) >= 0.0; });
+    };
+    EXPECT_TRUE(inside(low));
+    EXPECT_TRUE(inside(high));
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 below = low;
+        glm::dvec3 above = high;
+        below[axis] -= 1e-9;
+        above[axis] += 1e-9;
+        EXPECT_FALSE(inside(below)) << axis;
+        EXPECT_FALSE(inside(above)) << axis;
     }
 }
 

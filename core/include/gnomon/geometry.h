@@ -82,6 +82,9 @@ struct Frustum {
 /// reversed-z camera has them the other way round). A plane at infinity gets a zero normal and d = 1: all is inside it.
 [[nodiscard]] GNOMON_API Frustum frustumFromClip(const glm::dmat4& clip_from_world);
 
+/// The inward planes of a box along the axes, for ObjectSet::query(). low <= high, metres.
+[[nodiscard]] GNOMON_API std::array<Plane, 6> planesAround(const glm::dvec3& low, const glm::dvec3& high);
+
 /// Where a box is against a convex region.
 enum class Containment : std::uint8_t { outside, intersects, inside };
 /// Conservative: `intersects` may be said of a box just outside an edge, never `outside` of one that is not.

@@ -63,6 +63,18 @@ Plane planeFromRow(const glm::dvec4& row, double size)
 
 } // namespace
 
+std::array<Plane, 6> planesAround(const glm::dvec3& low, const glm::dvec3& high)
+{
+    std::array<Plane, 6> planes;
+    for (int i = 0; i < 6; ++i) {
+        const bool is_low = i % 2 == 0;
+        glm::dvec3 normal(0.0);
+        normal[i / 2] = is_low ? 1.0 : -1.0;
+        planes[static_cast<std::size_t>(i)] = {normal, -glm::dot(normal, is_low ? low : high)};
+    }
+    return planes;
+}
+
 Frustum frustumFromClip(const glm::dmat4& clip_from_world)
 {
     const glm::dmat4 rows = glm::transpose(clip_from_world);
