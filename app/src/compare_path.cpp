@@ -14,6 +14,7 @@ namespace {
 std::vector<lab::Contestant> contestantsOf(const std::vector<Settings>& techniques)
 {
     std::vector<lab::Contestant> contestants;
+    contestants.reserve(techniques.size());
     for (const Settings& technique : techniques) {
         contestants.push_back({describeTechnique(technique), renderOptions(technique)});
     }

@@ -7,6 +7,12 @@
 
 namespace gnomon {
 
+bool isOrthographic(const Camera& camera)
+{
+    const glm::dmat4& m = camera.clip_from_world;
+    return !(glm::length(glm::dvec3(m[0].w, m[1].w, m[2].w)) > 0.0);
+}
+
 glm::dmat4 clipFromWorld(const Camera& camera)
 {
     glm::dmat4 clip = camera.clip_from_world;

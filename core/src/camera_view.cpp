@@ -93,7 +93,7 @@ void findAxis(const Camera& camera, CameraView& view)
     const glm::dvec3 w(rows[3]);
     view.eye_ws = camera.eye_ws;
     view.clip_from_world = clipFromWorld(camera);
-    view.perspective = glm::length(w) > 0.0;
+    view.perspective = !isOrthographic(camera);
     const glm::dvec3 z = camera.reversed_z ? -glm::dvec3(rows[2]) : glm::dvec3(rows[2]);
     view.forward_ws = glm::normalize(view.perspective ? w : z);
 }

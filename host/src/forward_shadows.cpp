@@ -75,8 +75,10 @@ void ForwardShadows::describe(std::uint32_t slot, const Frame& frame, const Plan
                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, kPurpose);
     const vulkan::ImageRef maps = renderer.maps();
     const pack::MapImage image{{maps.extent.width, maps.extent.height}, maps.levels};
+    // forward.frag has an orthographic camera's points from gl_FragCoord.z, as a depth buffer would have them.
     const pack::DrawPrecision precision{.sub_pixel_bits = memory_.limits().subPixelPrecisionBits,
-                                        .receivers_from_depth = false};
+                                        .receivers_from_depth = isOrthographic(frame.camera),
+                                        .depth_rounding = 0.0F};
     pack::fillConstants(frame, plan, 0, frame.size_px, image, precision,
                         *static_cast<shared::GpuConstants*>(now.constants.mapped));
     pack::fillLights(frame, plan, {static_cast<shared::GpuLight*>(now.lights.mapped), kMaxLights});

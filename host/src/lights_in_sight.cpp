@@ -39,9 +39,7 @@ double weightOf(const ShadedLight& light, const Camera& camera, const Frustum& v
     }
     constexpr double kTooNearToTell = 1e-3; // of the scene's diagonal
     const double least = kTooNearToTell * glm::length(glm::dvec3(scene_ws.extent()));
-    const glm::dmat4& m = camera.clip_from_world;
-    const bool perspective = glm::dvec3(m[0].w, m[1].w, m[2].w) != glm::dvec3(0.0);
-    const double away = perspective ? glm::distance(caster.position_ws, camera.eye_ws) : outside;
+    const double away = isOrthographic(camera) ? outside : glm::distance(caster.position_ws, camera.eye_ws);
     return caster.brightness / (away * away + least * least);
 }
 

@@ -58,12 +58,15 @@ void main()
     } else {
         p = volumeWall(corner, pointOf(element.x), pointOf(element.y), left, casts(element.w, mirrored), place);
     }
-    // For an orthographic eye, a lamp's volume has w = 0 at infinity, so its dark caps would not be drawn. They are as far
-    // away as the casters' distance from the lamp times this.
+    // At infinity w is 0 for an orthographic eye: a lamp's dark caps would not be drawn, and some drivers drop triangles of
+    // a sun's. So infinity is so many times as far as the caster is from the lamp, or as what a sun's eye sees is wide.
     const float kFarTimes = 65536.0;
+    mat3 rows = transpose(mat3(clip_from_eye));
     bool orthographic = clip_from_eye[0].w == 0.0 && clip_from_eye[1].w == 0.0 && clip_from_eye[2].w == 0.0;
-    if (orthographic && p.w == 0.0 && place.w != 0.0) {
-        p = vec4(p.xyz + place.xyz / kFarTimes, 1.0 / kFarTimes);
+    if (orthographic && p.w == 0.0) {
+        float least = min(length(rows[0]), min(length(rows[1]), length(rows[2])));
+        p.w = (place.w != 0.0 ? 1.0 : least) / kFarTimes;
+        p.xyz += place.xyz * place.w * p.w;
     }
     gl_Position = clip_from_eye * vec4(p.xyz * kVolumePush, p.w);
 }

@@ -58,7 +58,7 @@ glm::mat4 clipFromEye(const Camera& camera)
 {
     glm::dmat4 clip = camera.clip_from_world;
     clip[3] = camera.clip_from_world * glm::dvec4(camera.eye_ws, 1.0);
-    if (clip[0].w == 0.0 && clip[1].w == 0.0 && clip[2].w == 0.0) {
+    if (isOrthographic(camera)) {
         // Volumes are pushed away from the eye (kVolumePush), and near an orthographic eye's plane that is no depth.
         constexpr double kPush = 4e-6; // of the depth range
         clip[3].z += camera.reversed_z ? -kPush : kPush;

@@ -74,15 +74,16 @@ const std::vector<Claim>& table2005()
         {.id = "2005-blur-edges",
          .claim = "Blurring the mask in screen space removes the aliasing of edges",
          .commands =
-             {"gnomon render spotlit --preset plain --camera stage --light gear --mask --filter hard --map-size "
-              "512 --size 320x180 -o hard_512.png",
-              "gnomon render spotlit --preset plain --camera stage --light gear --mask --filter hard --map-size "
-              "4096 --size 320x180 -o hard_4096.png",
-              "gnomon render spotlit --preset plain --camera stage --light gear --mask --filter hard --soften "
-              "blur --set soften.edges=plain --set soften.taps=published --map-size 512 --size 320x180 -o blur_512.png",
-              "gnomon render spotlit --preset plain --camera stage --light gear --mask --filter hard --soften "
-              "blur --set soften.edges=plain --set soften.taps=published --map-size 4096 --size 320x180 -o "
-              "blur_4096.png",
+             {("gnomon render spotlit --preset plain --camera stage --light gear --mask --filter hard --map-size "
+               "512 --size 320x180 -o hard_512.png"),
+              ("gnomon render spotlit --preset plain --camera stage --light gear --mask --filter hard --map-size "
+               "4096 --size 320x180 -o hard_4096.png"),
+              ("gnomon render spotlit --preset plain --camera stage --light gear --mask --filter hard --soften "
+               "blur --set soften.edges=plain --set soften.taps=published --map-size 512 --size 320x180 -o "
+               "blur_512.png"),
+              ("gnomon render spotlit --preset plain --camera stage --light gear --mask --filter hard --soften "
+               "blur --set soften.edges=plain --set soften.taps=published --map-size 4096 --size 320x180 -o "
+               "blur_4096.png"),
               "gnomon metrics hard_512.png hard_4096.png --json", "gnomon metrics blur_512.png blur_4096.png --json",
               kSoftened},
          .parts = {{"what coarse texels change, rmse,", "of what they change unblurred",

@@ -163,26 +163,27 @@ const std::vector<Claim>& depths2006()
          .why = "They err more even under a sun of 2 degrees, where texels are larger than pixels."},
         {.id = "2006-noise",
          .claim = "PCF looks bad; one can get away with it on noisy surfaces",
-         .commands = {"gnomon render rts --preset plain --camera camp --sun-angle 2 --truth area --samples 64 --size "
-                      "320x180 -o camp_noisy_truth.png",
-                      "gnomon render rts --preset plain --camera camp --filter pcf --map-size 512 --size 320x180 -o "
-                      "camp_noisy.png",
-                      "gnomon render rts --preset plain --camera camp --sun-angle 2 --override-material diffuse "
-                      "--truth area --samples 64 --size 320x180 -o camp_smooth_truth.png",
-                      "gnomon render rts --preset plain --camera camp --override-material diffuse --filter pcf "
-                      "--map-size 512 --size 320x180 -o camp_smooth.png",
-                      "gnomon metrics camp_noisy.png camp_noisy_truth.png --json",
-                      "gnomon metrics camp_smooth.png camp_smooth_truth.png --json",
-                      "gnomon render planes --preset plain --camera side --sun-angle 2 --truth area --samples 64 "
-                      "--size 320x180 -o box_noisy_truth.png",
-                      "gnomon render planes --preset plain --camera side --filter pcf --map-size 256 --size 320x180 -o "
-                      "box_noisy.png",
-                      "gnomon render planes --preset plain --camera side --sun-angle 2 --override-material diffuse "
-                      "--truth area --samples 64 --size 320x180 -o box_smooth_truth.png",
-                      "gnomon render planes --preset plain --camera side --override-material diffuse --filter pcf "
-                      "--map-size 256 --size 320x180 -o box_smooth.png",
-                      "gnomon metrics box_noisy.png box_noisy_truth.png --json",
-                      "gnomon metrics box_smooth.png box_smooth_truth.png --json"},
+         .commands =
+             {("gnomon render rts --preset plain --camera camp --sun-angle 2 --truth area --samples 64 --size "
+               "320x180 -o camp_noisy_truth.png"),
+              ("gnomon render rts --preset plain --camera camp --filter pcf --map-size 512 --size 320x180 -o "
+               "camp_noisy.png"),
+              ("gnomon render rts --preset plain --camera camp --sun-angle 2 --override-material diffuse "
+               "--truth area --samples 64 --size 320x180 -o camp_smooth_truth.png"),
+              ("gnomon render rts --preset plain --camera camp --override-material diffuse --filter pcf "
+               "--map-size 512 --size 320x180 -o camp_smooth.png"),
+              "gnomon metrics camp_noisy.png camp_noisy_truth.png --json",
+              "gnomon metrics camp_smooth.png camp_smooth_truth.png --json",
+              ("gnomon render planes --preset plain --camera side --sun-angle 2 --truth area --samples 64 "
+               "--size 320x180 -o box_noisy_truth.png"),
+              ("gnomon render planes --preset plain --camera side --filter pcf --map-size 256 --size 320x180 -o "
+               "box_noisy.png"),
+              ("gnomon render planes --preset plain --camera side --sun-angle 2 --override-material diffuse "
+               "--truth area --samples 64 --size 320x180 -o box_smooth_truth.png"),
+              ("gnomon render planes --preset plain --camera side --override-material diffuse --filter pcf "
+               "--map-size 256 --size 320x180 -o box_smooth.png"),
+              "gnomon metrics box_noisy.png box_noisy_truth.png --json",
+              "gnomon metrics box_smooth.png box_smooth_truth.png --json"},
          .parts = {{"FLIP to the truth on tiles", "of that on one smooth material",
                     [](const Runs& r) { return r.number(10, "/error/flip") / r.number(11, "/error/flip"); }, 0.0, 0.85},
                    {"on the ground of a camp", "of it",

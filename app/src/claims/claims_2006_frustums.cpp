@@ -174,22 +174,22 @@ const std::vector<Claim>& frustums2006()
         {.id = "2006-soft-seams",
          .claim = "Soft shadows help to hide seams between frustums; a blur on the screen is effective",
          .commands =
-             {"gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --set multi.most-times=2 "
-              "--texels 16384 --mask --size 240x135 --filter hard --set cascades.blend=0 -o hard_seams.png",
-              "gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --set multi.most-times=2 "
-              "--texels 16384 --mask --size 240x135 --filter hard --set cascades.blend=0.5 -o hard_faded.png",
-              "gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --set multi.most-times=2 "
-              "--texels 16384 --mask --size 240x135 --filter hard --soften blur --set soften.edges=plain --set "
-              "cascades.blend=0 -o blur_seams.png",
-              "gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --set multi.most-times=2 "
-              "--texels 16384 --mask --size 240x135 --filter hard --soften blur --set soften.edges=plain --set "
-              "cascades.blend=0.5 -o blur_faded.png",
-              "gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --set multi.most-times=2 "
-              "--texels 16384 --mask --size 240x135 --filter raymarch --light-size 0.2 --set cascades.blend=0 -o "
-              "soft_seams.png",
-              "gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --set multi.most-times=2 "
-              "--texels 16384 --mask --size 240x135 --filter raymarch --light-size 0.2 --set cascades.blend=0.5 -o "
-              "soft_faded.png",
+             {("gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --set multi.most-times=2 "
+               "--texels 16384 --mask --size 240x135 --filter hard --set cascades.blend=0 -o hard_seams.png"),
+              ("gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --set multi.most-times=2 "
+               "--texels 16384 --mask --size 240x135 --filter hard --set cascades.blend=0.5 -o hard_faded.png"),
+              ("gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --set multi.most-times=2 "
+               "--texels 16384 --mask --size 240x135 --filter hard --soften blur --set soften.edges=plain --set "
+               "cascades.blend=0 -o blur_seams.png"),
+              ("gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --set multi.most-times=2 "
+               "--texels 16384 --mask --size 240x135 --filter hard --soften blur --set soften.edges=plain --set "
+               "cascades.blend=0.5 -o blur_faded.png"),
+              ("gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --set multi.most-times=2 "
+               "--texels 16384 --mask --size 240x135 --filter raymarch --light-size 0.2 --set cascades.blend=0 -o "
+               "soft_seams.png"),
+              ("gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --set multi.most-times=2 "
+               "--texels 16384 --mask --size 240x135 --filter raymarch --light-size 0.2 --set cascades.blend=0.5 -o "
+               "soft_faded.png"),
               "gnomon metrics hard_seams.png hard_faded.png --json",
               "gnomon metrics blur_seams.png blur_faded.png --json",
               "gnomon metrics soft_seams.png soft_faded.png --json"},

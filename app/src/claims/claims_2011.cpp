@@ -241,8 +241,8 @@ const std::vector<Claim>& table2011()
          .why = "On a software rasteriser, which has no fixed units for samples and filters. No GPU was measured."},
         {.id = "2011-bloom",
          .claim = "Bloom helps to hide what artefacts remain",
-         .commands = {"gnomon render --preset rts-2011 --set bloom=0 --size 320x180 --truth area --samples 64 -o "
-                      "truth.png",
+         .commands = {("gnomon render --preset rts-2011 --set bloom=0 --size 320x180 --truth area --samples 64 -o "
+                       "truth.png"),
                       "gnomon render --preset rts-2011 --size 320x180 --truth area --samples 64 -o truth_bloom.png",
                       "gnomon render --preset rts-2011 --set lighten=0 --set bloom=0 --size 320x180 -o plain.png",
                       "gnomon render --preset rts-2011 --set lighten=0 --size 320x180 -o bloom.png",
@@ -359,16 +359,15 @@ const std::vector<Claim>& table2011()
                       "gnomon compare planes --preset plain --camera side --sun=0.3,-0.5,1 --size 320x180 --truth "
                       "hard --repetitions 1 --warmup 0 --map-size 512 --techniques "
                       "hard,volumes+volumes.open=skip"},
-         .parts = {{"rmse", "of that of a map of 512",
-                    [](const Runs& r) { return r.ratio("volumes+volumes.open=skip", "hard", "/error/rmse"); }, 0.0,
-                    0.5},
-                   {"where the shadow is long", "of it",
-                    [](const Runs& r) {
-                        return r.of(1, "volumes+volumes.open=skip", "/error/rmse") / r.of(1, "hard", "/error/rmse");
-                    },
-                    0.0, 0.5},
-                   {"itself", "", [](const Runs& r) { return r.of(1, "volumes+volumes.open=skip", "/error/rmse"); },
-                    0.0, 0.01}},
+         .parts =
+             {{"rmse", "of that of a map of 512",
+               [](const Runs& r) { return r.ratio("volumes+volumes.open=skip", "hard", "/error/rmse"); }, 0.0, 0.5},
+              {"where the shadow is long", "of it",
+               [](const Runs&
+                      r) { return r.of(1, "volumes+volumes.open=skip", "/error/rmse") / r.of(1, "hard", "/error/rmse"); },
+               0.0, 0.5},
+              {"itself", "", [](const Runs& r) { return r.of(1, "volumes+volumes.open=skip", "/error/rmse"); }, 0.0,
+               0.01}},
          .verdict = Verdict::holds,
          .quick = true,
          .why = "Edges are those of the picture's pixels, wherever they fall."},

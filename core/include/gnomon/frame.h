@@ -40,6 +40,8 @@ struct Camera {
 };
 /// The camera's matrix with z in [0, w], whichever it has: z / w is what the depth buffer holds.
 [[nodiscard]] GNOMON_API glm::dmat4 clipFromWorld(const Camera& camera);
+/// Are its lines of sight parallel?
+[[nodiscard]] GNOMON_API bool isOrthographic(const Camera& camera);
 /// Does `now` see what `before` saw, where it saw it? But for jitter_px and rounding. `size_px`: of both pictures.
 [[nodiscard]] GNOMON_API bool sameSight(const Camera& before, const Camera& now, const glm::uvec2& size_px);
 

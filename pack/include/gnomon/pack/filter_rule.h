@@ -35,8 +35,8 @@ struct DrawPrecision {
     /// GL_SUBPIXEL_BITS; 8 in Direct3D), 4 to 24; beyond, the nearer of these counts. The default is as many as
     /// Vulkan and OpenGL promise.
     std::uint32_t sub_pixel_bits = 4;
-    /// Receivers' points come from a depth buffer that the same device has drawn; false: a shading pass interpolates
-    /// them, or they come from rays.
+    /// Receivers' points come from a depth buffer that the same device has drawn, or from gl_FragCoord.z; false: a
+    /// shading pass interpolates them, or they come from rays.
     bool receivers_from_depth = true;
     /// Half a step of that depth buffer, 0 to 0.01: 2^-17 of 16 bits, 2^-25 of 24 bits, and of floats where 1 is far
     /// (Camera::reversed_z false); 0 of floats where 0 is far.
