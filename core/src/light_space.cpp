@@ -157,7 +157,7 @@ double nearBefore(const Light& light, const ObjectSet& objects, std::vector<std:
         around[static_cast<std::size_t>(i)] = {normal, side_m - glm::dot(normal, p)};
     }
     scratch.clear();
-    objects.query(around, ObjectSet::Want::casters, scratch);
+    objects.query(around, ObjectSet::Want::casters, scratch, light.groups);
     double nearest_m = side_m;
     double near_m = extent.near_m;
     for (const std::uint32_t object : scratch) {
