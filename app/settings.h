@@ -4,6 +4,7 @@
 #pragma once
 
 #include "host/frame_renderer.h"
+#include "scene/casting.h"
 #include "scene/load.h"
 #include "truth/visibility.h"
 
@@ -39,6 +40,16 @@ struct SpotLight {
 struct PointLight {
     glm::dvec3 position_ws{0.0};
     double range_m = 1.0;
+};
+/// --set object: what is said of the nodes of a name.
+struct NamedCasting {
+    std::string name;
+    scene::Casting casting;
+};
+/// --set light-groups: the groups of casters that a light makes shadows of.
+struct NamedGroups {
+    std::string name;
+    std::uint32_t groups = kAllGroups;
 };
 /// Whether a ground is put under the scene; automatic: under a file that has none of its own.
 enum class Ground : std::uint8_t { automatic, on, off };
@@ -82,6 +93,7 @@ struct Settings {
     bool stained = false;          // blended surfaces are stained glass
     Ground ground = Ground::automatic;
     UpAxis up_axis = UpAxis::y;
+    std::vector<NamedCasting> objects; // in the order in which they are applied
     // camera
     std::string camera;
     std::optional<glm::dvec3> eye_ws;
@@ -98,6 +110,7 @@ struct Settings {
     std::optional<double> cone_deg;      // the whole cone of every spot light; else the light's own
     std::optional<double> near_m;        // Light::near_m and range_m of every spot light; else the light's own
     std::optional<double> range_m;
+    std::vector<NamedGroups> light_groups;
     // technique
     ShadowOptions shadow;
     std::string format_preset; // the preset that gave the map's format; empty: none did, or it was given again

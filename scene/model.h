@@ -152,6 +152,8 @@ struct Node {
     std::vector<glm::mat4> instances; // node_from_instance; empty: the node's mesh once at the node
     bool casts = true;                // per-object flags of the shadow system
     bool receives = true;
+    std::uint32_t groups = 1; // of casters, a bit each, that its mesh is in; 0: it must not cast, whatever draws maps
+    float bias_m = 0.0F;      // in maps its mesh is so much farther from lights than it is, metres; finite
     /// Of the node's mesh, or of each of its instances, in their own space; of a skinned mesh in the world's, where its
     /// vertices are. Children have their own. Nothing animates them.
     ClipPlanes clip_planes = kNoClipPlanes;
@@ -213,6 +215,7 @@ struct Light {
     float radius_m = 0.0F;                    // spot and point: sphere radius of the emitter
     std::uint32_t cookie = kNone;             // spot: an image projected down its cone, or kNone
     bool casts_shadow = true;
+    std::uint32_t groups = 0xFFFFFFFFU; // of casters that it makes shadows of (Node::groups)
     Body body = Body::none;
 };
 

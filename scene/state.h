@@ -21,6 +21,8 @@ struct Object {
     std::uint32_t material = kNone;
     bool casts = true;
     bool receives = true;
+    std::uint32_t groups = 1;               // Node::groups
+    float bias_m = 0.0F;                    // Node::bias_m
     bool dynamic = false;                   // may move or deform over time
     ClipPlanes clip_planes = kNoClipPlanes; // in the space of its vertices
     glm::mat4 world_from_object{1.0F};      // identity for skinned objects: their vertices are in world space

@@ -36,6 +36,8 @@ struct Light {
     /// `direction_ws`, so a plane, at near_m / cos(a) from the centre at the angle a off that axis; 0: no plane, and
     /// what is behind the light casts too. Point: metres from the centre, so a sphere.
     double near_m = 0.0;
+    /// A bit for each group of objects that block its rays (scene::Object::groups); what is in none of them does not.
+    std::uint32_t groups = 0xFFFFFFFFU;
 };
 
 /// Where the rays start and which pixel each goes through: pixel (x, y) looks through the point
@@ -101,9 +103,10 @@ struct Visibility {
 /// Holds the acceleration structure of a scene at one moment. Opaque and alpha-masked surfaces are seen and cast
 /// (masked ones where the texture's alpha, times factor and vertex colour, reaches the cutoff); blended ones are
 /// not seen, and of the light that crosses them each lets 1 - alpha (1 - colour) through, of which a mask holds the
-/// luminance. What clip planes cut away is not there. Objects that do not cast are seen only. Single-sided triangles
-/// are seen from their front but cast from both sides. Objects whose transform is not finite take no part; flattened
-/// ones do. Where memory runs out, all of this throws Error of the kind out_of_memory, or std::bad_alloc.
+/// luminance. What clip planes cut away is not there. Objects that do not cast, or in none of a light's groups, are
+/// seen only. Single-sided triangles are seen from their front but cast from both sides. Objects whose transform is not
+/// finite take no part; flattened ones do. Where memory runs out, all of this throws Error of the kind out_of_memory,
+/// or std::bad_alloc.
 class Tracer {
 public:
     /// `scene` and `state` must outlive the tracer and stay as they are. Builds on the calling thread, which takes

@@ -61,6 +61,8 @@ Json objectsJson(const Shot& shot, const ObjectSet& objects)
                         {"primitive", object.primitive},
                         {"casts", object.casts},
                         {"receives", object.receives},
+                        {"groups", object.groups},
+                        {"bias_m", object.bias_m},
                         {"dynamic", object.dynamic},
                         {"min_ws", numbers(bounds.min)},
                         {"max_ws", numbers(bounds.max)}});

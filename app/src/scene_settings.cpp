@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is looked at: picture, camera and lights. A new option is one row here.
+#include "object_casting.h"
 #include "setting_rows.h"
 
 #include <fmt/format.h>
@@ -280,6 +281,8 @@ const std::vector<Setting>& rows()
          .choices = [] { return std::vector<std::string_view>{"coverage", "stained"}; },
          .doc = "light that blended surfaces take: coverage, or stained",
          .apply = [](Settings& s, const Value& v) { s.stained = v.text == "stained"; }},
+        {.key = "object", .group = Group::picture, .type = text, .form = "NAME:KEY=VALUE,...",
+         .doc = "casts, receives, moves, bias_m, groups (0+3) of an object", .own_option = false, .repeatable = true, .separator = ";", .apply = applyObjects},
         {.key = "override-material", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "none",
          .choices = [] { return std::vector<std::string_view>{"none", "diffuse"}; }, .doc = "draw everything in one material: none or diffuse",
          .subcommands = kDraw, .apply = [](Settings& s, const Value& v) { s.material_override = v.text == "none" ? "" : v.text; }},
@@ -317,6 +320,8 @@ const std::vector<Setting>& rows()
          .doc = "nothing nearer to a spot light casts; else its own, or found from what casts", .own_option = false, .apply = [](Settings& s, const Value& v) { s.near_m = v.real; }},
         {.key = "spot.range", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
          .doc = "reach of spot lights; else their own, or as far as the scene goes", .own_option = false, .apply = [](Settings& s, const Value& v) { s.range_m = v.real; }},
+        {.key = "light-groups", .group = Group::light, .type = text, .form = "NAME:GROUP+...",
+         .doc = "the groups of casters that a light makes shadows of, 0 to 31; else its own, or all", .own_option = false, .repeatable = true, .separator = ";", .apply = applyLightGroups},
         // clang-format on
     };
     return table;

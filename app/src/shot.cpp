@@ -2,6 +2,7 @@
 #include "app/shot.h"
 
 #include "framing.h"
+#include "object_casting.h"
 #include "shot_camera.h"
 #include "shot_ground.h"
 #include "shot_light.h"
@@ -144,6 +145,7 @@ void placeLights(Shot& shot, const Settings& settings)
             shapeSpot(light, settings);
         }
     }
+    groupAsTold(shot, settings);
 }
 
 void overrideMaterials(scene::Scene& scene)
@@ -323,6 +325,7 @@ Shot makeShot(const Settings& settings)
         overrideMaterials(shot.scene);
     }
     stainMaterials(shot, settings);
+    castAsTold(shot.scene, settings);
     requireAnimation(shot.scene, settings.animation);
     const std::uint32_t first = settings.frames ? settings.frames->first : 0;
     const double time_s = momentOf(shot, settings, first);

@@ -13,26 +13,41 @@ std::size_t lightIndex(const Shot& shot, const Settings& settings)
     if (settings.light.empty() || shot.lights_chosen) {
         return 0;
     }
+    if (const std::optional<std::size_t> light = lightNamed(shot, settings, settings.light)) {
+        return *light;
+    }
+    const std::vector<std::string_view> names = lightNames(shot);
+    throw UsageError(fmt::format("--light: there is no light \"{}\"{}; the scene has {}", settings.light,
+                                 suggestion(settings.light, names), listed(names)));
+}
+
+std::vector<std::string_view> lightNames(const Shot& shot)
+{
     std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < shot.lights.size(); ++i) {
-        if (shot.lights[i].name == settings.light) {
-            return i;
-        }
-        names.push_back(shot.lights[i].name);
+    for (const host::ShadedLight& light : shot.lights) {
+        names.push_back(light.name);
+    }
+    return names;
+}
+
+std::optional<std::size_t> lightNamed(const Shot& shot, const Settings& settings, std::string_view name)
+{
+    const auto named = std::ranges::find(shot.lights, name, &host::ShadedLight::name);
+    if (named != shot.lights.end()) {
+        return static_cast<std::size_t>(named - shot.lights.begin());
     }
     // glTF names the node that holds a light as well; lights are in the order of those nodes.
     std::size_t index = 0;
     for (const scene::Node& node : shot.state.nodes) {
         const bool from_file = !settings.placesLights();
         if (node.light != scene::kNone && from_file) {
-            if (node.name == settings.light) {
+            if (node.name == name) {
                 return index;
             }
             ++index;
         }
     }
-    throw UsageError(fmt::format("--light: there is no light \"{}\"{}; the scene has {}", settings.light,
-                                 suggestion(settings.light, names), listed(names)));
+    return std::nullopt;
 }
 
 void noteSizesWithoutEffect(Shot& shot, const Settings& settings, std::span<const host::ShadedLight> lights)

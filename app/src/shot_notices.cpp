@@ -3,6 +3,7 @@
 
 #include "contestants.h"
 #include "light_extent.h"
+#include "taken_light.h"
 
 #include "scene/hash.h"
 
@@ -119,6 +120,7 @@ void noteWhatSurprises(Shot& shot, const Settings& settings)
     noteFrames(shot, settings);
     noteSizes(shot, settings);
     noteExtents(shot, settings);
+    noteTakenLight(shot);
     noteScene(shot, settings);
     if (settings.fov_deg && shot.eye.height_m > 0.0) {
         tellNoEffect(settings, shot.notices, "--fov has no effect on an orthographic camera, but --ortho has one");

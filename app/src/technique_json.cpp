@@ -363,6 +363,7 @@ Json lightJson(const host::ShadedLight& light)
         json["angular_diameter_rad"] = numberJson(caster.angular_diameter_rad);
     }
     json["casts_shadow"] = caster.casts_shadow;
+    json["groups"] = caster.groups;
     return json;
 }
 

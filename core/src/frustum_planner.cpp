@@ -52,7 +52,8 @@ FrustumPlanner::Lie FrustumPlanner::lieOf(const FrustumInput& input)
     }
     lie.least_size = lie.space.perspective ? kLeastTangent : kLeastPads * camera.pad_m;
     const RegionInput around{
-        lie.space, input.slice, camera, *input.frame.objects, input.receivers, recipe.drawsReceivers()};
+        lie.space,         input.slice, camera, *input.frame.objects, input.receivers, recipe.drawsReceivers(),
+        input.light.groups};
     lie.outcome = region_.gatherReceivers(around);
     if (lie.outcome.kind == OutcomeKind::ok && input.ground != nullptr) {
         input.ground->note(region_, lie.space);
@@ -177,7 +178,8 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     }
     const LightSpace& space = lie.space;
     const double border_texels = lie.border_texels;
-    const RegionInput around{space, input.slice, camera, objects, input.receivers, recipe.drawsReceivers()};
+    const RegionInput around{
+        space, input.slice, camera, objects, input.receivers, recipe.drawsReceivers(), input.light.groups};
     const Warp warp = drawnWarp(input, lie);
     MapFrame shown = frameOfWarp(input, lie, warp);
     shown.centre += shown.texel * input.grid_move_texels;

@@ -115,7 +115,7 @@ Outcome FrustumPlanner::gatherHalf(const FrustumInput& input, const LightSpace& 
     planes_.assign(1, halfSpace(space, pad_m));
     addBox(seen.low_ws, seen.high_ws, pad_m, planes_);
     const std::size_t first = casters.size();
-    objects.query(planes_, ObjectSet::Want::casters, casters);
+    objects.query(planes_, ObjectSet::Want::casters, casters, input.light.groups);
     const std::span<const Aabb> bounds = objects.allBounds();
     const auto is_beyond = [&](std::uint32_t object) {
         return distanceTo(bounds[object], space.origin_ws) > seen.far_m + pad_m;

@@ -150,7 +150,7 @@ double nearBefore(const Light& light, const ObjectSet& objects, std::vector<std:
     const double side_m = 2.0 * extent.near_m;
     const glm::dvec3& p = light.position_ws;
     scratch.clear();
-    objects.query(planesAround(p - side_m, p + side_m), ObjectSet::Want::casters, scratch);
+    objects.query(planesAround(p - side_m, p + side_m), ObjectSet::Want::casters, scratch, light.groups);
     double nearest_m = side_m;
     double near_m = extent.near_m;
     for (const std::uint32_t object : scratch) {

@@ -96,14 +96,14 @@ bool liesOn(const Aabb& object, const FlatPlace& flat, const Aabb& box, Face fac
     return (is_high && face != Face::low) || (is_low && face != Face::high);
 }
 
-/// The first box that the object lies on; the object itself where there is none.
+/// The first box of these groups that the object lies on; the object itself where there is none.
 std::uint32_t boxUnder(const ObjectSet& objects, std::uint32_t object, const FlatPlace& flat, Face face,
-                       std::vector<std::uint32_t>& found)
+                       std::uint32_t groups, std::vector<std::uint32_t>& found)
 {
     const Aabb box = objects.bounds(object);
     found.clear();
     objects.query(planesAround(glm::dvec3(box.min) - flat.tolerance, glm::dvec3(box.max) + flat.tolerance),
-                  ObjectSet::Want::casters, found);
+                  ObjectSet::Want::casters, found, groups);
     const auto under = std::ranges::find_if(found, [&](std::uint32_t other) {
         const Aabb bounds = objects.bounds(other);
         return !flatPlaceOf(bounds) && liesOn(box, flat, bounds, face);
@@ -149,9 +149,10 @@ void shareInPlanes(const Light& light, const ObjectSet& objects, const IdHandout
         [&](std::uint32_t object, const FlatPlace& flat, std::uint32_t first) {
             id = first == plane ? id : ids[first];
             plane = first;
-            const std::uint32_t under = handout.of == IdOf::object
-                                            ? boxUnder(objects, object, flat, towards(light, flat), scratch.found)
-                                            : object;
+            const std::uint32_t under =
+                handout.of == IdOf::object
+                    ? boxUnder(objects, object, flat, towards(light, flat), light.groups, scratch.found)
+                    : object;
             ids[object] = under == object ? id : ids[under];
         });
 }
@@ -239,7 +240,8 @@ void handOutIds(const Light& light, const ObjectSet& objects, const IdHandout& h
         return handout.of == IdOf::face ? std::max<std::uint32_t>(objects.flags(object).pieces, 1) : 1U;
     };
     for (std::uint32_t object = 0; object < bounds.size(); ++object) {
-        if (objects.flags(object).casts && !bounds[object].empty()) {
+        const ObjectFlags flags = objects.flags(object);
+        if (flags.casts && (flags.groups & light.groups) != 0 && !bounds[object].empty()) {
             places.emplace_back(farthestOf(light, along_ws, bounds[object]), object);
             wanted += takes(object);
         }
@@ -267,7 +269,7 @@ void shareIdBounds(const ObjectSet& objects, IdScratch& scratch, std::vector<Aab
     };
     eachInPlane(objects, scratch, counts, [&](std::uint32_t object, const FlatPlace& flat, std::uint32_t first) {
         scratch.links.emplace_back(object, first);
-        scratch.links.emplace_back(object, boxUnder(objects, object, flat, Face::any, scratch.found));
+        scratch.links.emplace_back(object, boxUnder(objects, object, flat, Face::any, kAllGroups, scratch.found));
     });
     // Bounds pass on along links until all that are linked have the same.
     bool grows = true;

@@ -15,6 +15,8 @@ namespace {
 
 constexpr Aabb kAnywhere{glm::vec3(-kFarthestBounds_m), glm::vec3(kFarthestBounds_m)};
 
+constexpr ObjectFlags kNothing{.casts = false, .receives = false, .groups = 0};
+
 /// Not so where a coordinate is no number: that fails every comparison.
 bool isSomewhere(const Aabb& box, const Aabb& within = kAnywhere)
 {
@@ -63,6 +65,7 @@ struct ObjectSet::Impl {
     bool bounds_loose = false; // an object at the rim left it
     std::uint32_t nowhere = 0;
 
+    [[nodiscard]] bool casts(std::uint32_t index) const { return flags[index].casts && flags[index].groups != 0; }
     void record(std::uint32_t index) { changed[index] = ++version; }
     Octree& treeOf(std::uint32_t index) { return trees[flags[index].dynamic ? 1 : 0]; }
     [[nodiscard]] bool alive(std::size_t index) const { return index < generations.size() && generations[index] != 0; }
@@ -115,7 +118,7 @@ struct ObjectSet::Impl {
             word = value ? word | bit : word & ~bit;
         };
         set(Want::all, somewhere);
-        set(Want::casters, somewhere && flags[index].casts);
+        set(Want::casters, somewhere && casts(index));
         set(Want::receivers, somewhere && flags[index].receives);
     }
     /// Called before an object's box goes or changes.
@@ -133,14 +136,16 @@ struct ObjectSet::Impl {
     /// An object that is nowhere gets a place.
     void appear(std::uint32_t index, const Aabb& box)
     {
-        const ObjectFlags& is = flags[index];
+        const bool receives = flags[index].receives;
         objects.bounds_ws[index] = box;
         setBits(index, true);
         treeOf(index).insert(objects,
-                             index | (is.casts ? Octree::kCasts : 0U) | (is.receives ? Octree::kReceives : 0U));
+                             index | (casts(index) ? Octree::kCasts : 0U) | (receives ? Octree::kReceives : 0U));
         enter(box);
         --nowhere;
     }
+    /// Appends all that `want` names, of any group.
+    void find(std::span<const Plane> planes, Want want, std::vector<std::uint32_t>& out) const;
     /// An object that has a place loses it.
     void vanish(std::uint32_t index)
     {
@@ -231,6 +236,28 @@ bool ObjectSet::touch(ObjectId object)
     return true;
 }
 
+bool ObjectSet::setFlags(ObjectId object, const ObjectFlags& flags)
+{
+    if (!alive(object)) {
+        return false;
+    }
+    Impl& s = *impl_;
+    if (s.flags[object.index] == flags) {
+        return true;
+    }
+    s.trees[flags.dynamic ? 1 : 0].makeRoom();
+    const Aabb box = s.objects.bounds_ws[object.index];
+    if (!box.empty()) { // trees and bits go by the flags
+        s.vanish(object.index);
+    }
+    s.flags[object.index] = flags;
+    if (!box.empty()) {
+        s.appear(object.index, box);
+    }
+    s.record(object.index);
+    return true;
+}
+
 bool ObjectSet::remove(ObjectId object)
 {
     if (!alive(object)) {
@@ -289,13 +316,13 @@ Aabb ObjectSet::bounds(std::uint32_t index) const
 ObjectFlags ObjectSet::flags(ObjectId object) const
 {
     const Impl& s = read();
-    return s.names(object) ? s.flags[object.index] : ObjectFlags{false, false, false};
+    return s.names(object) ? s.flags[object.index] : kNothing;
 }
 
 ObjectFlags ObjectSet::flags(std::uint32_t index) const
 {
     const Impl& s = read();
-    return s.alive(index) ? s.flags[index] : ObjectFlags{false, false, false};
+    return s.alive(index) ? s.flags[index] : kNothing;
 }
 
 std::uint32_t ObjectSet::nowhere() const
@@ -345,17 +372,29 @@ std::uint64_t ObjectSet::identity() const
     return read().identity;
 }
 
-void ObjectSet::query(std::span<const Plane> planes, Want want, std::vector<std::uint32_t>& out) const
+void ObjectSet::query(std::span<const Plane> planes, Want want, std::vector<std::uint32_t>& out,
+                      std::uint32_t groups) const
 {
     const Impl& s = read();
+    const auto first = static_cast<std::ptrdiff_t>(out.size());
+    s.find(planes, want, out);
+    if (want == Want::casters && groups != kAllGroups) {
+        const auto others = std::remove_if(out.begin() + first, out.end(),
+                                           [&](std::uint32_t index) { return (s.flags[index].groups & groups) == 0; });
+        out.erase(others, out.end());
+    }
+}
+
+void ObjectSet::Impl::find(std::span<const Plane> planes, Want want, std::vector<std::uint32_t>& out) const
+{
     const RegionTest region(planes);
-    const glm::dvec3 low(s.bounds.min);
-    const glm::dvec3 high(s.bounds.max);
+    const glm::dvec3 low(bounds.min);
+    const glm::dvec3 high(bounds.max);
     std::uint32_t mask = region.allPlanes();
-    if (s.bounds.empty() || !region.narrow((low + high) * 0.5, (high - low) * 0.5, mask)) {
+    if (bounds.empty() || !region.narrow((low + high) * 0.5, (high - low) * 0.5, mask)) {
         return;
     }
-    const std::vector<std::uint64_t>& all = s.bits[static_cast<std::size_t>(want)];
+    const std::vector<std::uint64_t>& all = bits[static_cast<std::size_t>(want)];
     if (mask == 0) {
         appendSet(all, out); // the whole world is inside
         return;
@@ -364,11 +403,11 @@ void ObjectSet::query(std::span<const Plane> planes, Want want, std::vector<std:
     // set can be asked from several.
     static thread_local std::vector<std::uint64_t> found;
     found.assign(all.size(), 0);
-    const std::uint32_t flags = want == Want::casters     ? Octree::kCasts
-                                : want == Want::receivers ? Octree::kReceives
-                                                          : 0U;
-    for (const Octree& tree : s.trees) {
-        tree.query(s.objects, s.bounds, region, flags, found);
+    const std::uint32_t wanted = want == Want::casters     ? Octree::kCasts
+                                 : want == Want::receivers ? Octree::kReceives
+                                                           : 0U;
+    for (const Octree& tree : trees) {
+        tree.query(objects, bounds, region, wanted, found);
     }
     appendSet(found, out);
 }

@@ -274,13 +274,16 @@ void Region::makeCasterPlanes(const RegionInput& input, const CasterReach& reach
 }
 
 /// A receiver that does not cast is in the map for its own shadows alone, and hides all that is behind it: as a lamp's
-/// housing would the room.
-void Region::leaveOutUnseen(const RegionInput& input, std::size_t first, std::vector<std::uint32_t>& casters)
+/// housing would the room. Of a map that is not for what is seen alone (`whole`) any receiver may be.
+void Region::leaveOutOthers(const RegionInput& input, bool whole, std::size_t first,
+                            std::vector<std::uint32_t>& casters)
 {
-    const auto is_unseen = [&](std::uint32_t object) {
-        return !input.objects.flags(object).casts && !std::ranges::binary_search(input.seen, object);
+    const auto is_other = [&](std::uint32_t object) {
+        const ObjectFlags flags = input.objects.flags(object);
+        const bool in_map = flags.casts || (whole ? flags.receives : std::ranges::binary_search(input.seen, object));
+        return !in_map || (flags.groups & input.groups) == 0;
     };
-    casters.erase(std::remove_if(casters.begin() + static_cast<std::ptrdiff_t>(first), casters.end(), is_unseen),
+    casters.erase(std::remove_if(casters.begin() + static_cast<std::ptrdiff_t>(first), casters.end(), is_other),
                   casters.end());
 }
 
@@ -288,13 +291,11 @@ Outcome Region::gatherCasters(const RegionInput& input, const CasterReach& reach
 {
     makeCasterPlanes(input, reach);
     const std::size_t first = casters.size();
-    input.objects.query(caster_planes_, ObjectSet::Want::casters, casters);
+    input.objects.query(caster_planes_, ObjectSet::Want::casters, casters, input.groups);
     if (casters.size() != first && input.draws_receivers) {
         casters.resize(first);
         input.objects.query(caster_planes_, ObjectSet::Want::all, casters);
-        if (!reach.whole) {
-            leaveOutUnseen(input, first, casters);
-        }
+        leaveOutOthers(input, reach.whole, first, casters);
     }
     if (casters.size() == first) {
         return {OutcomeKind::no_caster, "nothing can throw a shadow on what the camera sees"};

@@ -23,6 +23,7 @@ struct RegionInput {
     const ObjectSet& objects;
     std::span<const std::uint32_t> seen; // receivers that the camera sees, ascending
     bool draws_receivers = false;        // Recipe::drawsReceivers()
+    std::uint32_t groups = kAllGroups;   // Light::groups
 };
 
 /// From where casters can throw a shadow into a map.
@@ -62,7 +63,8 @@ private:
     void narrowOutline();
     void measureCasters(const RegionInput& input, std::span<const std::uint32_t> casters);
     double depthInCone(const LightSpace& space, const Aabb& box);
-    static void leaveOutUnseen(const RegionInput& input, std::size_t first, std::vector<std::uint32_t>& casters);
+    static void leaveOutOthers(const RegionInput& input, bool whole, std::size_t first,
+                               std::vector<std::uint32_t>& casters);
     void makeCasterPlanes(const RegionInput& input, const CasterReach& reach);
     void addOutlinePlanes(const LightSpace& space, double pad, double pad_m, double rounding);
     void addSidePlane(const LightSpace& space, const glm::dvec2& normal, double offset, double pad);

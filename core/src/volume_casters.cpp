@@ -17,7 +17,8 @@ Outcome FrustumPlanner::listCasters(const FrustumInput& input, std::vector<std::
     }
     const LightSpace space =
         lightSpaceOf(input.light, input.slice.axis_ws, input.slice.half_angle_rad, input.camera.scene_ws);
-    const RegionInput around{space, input.slice, input.camera, *input.frame.objects, input.receivers, false};
+    const RegionInput around{space,           input.slice, input.camera,      *input.frame.objects,
+                             input.receivers, false,       input.light.groups};
     if (const Outcome seen = region_.gatherReceivers(around); seen.kind != OutcomeKind::ok) {
         return seen;
     }
@@ -49,7 +50,7 @@ Outcome FrustumPlanner::listCastersAround(const FrustumInput& input, std::vector
         planes_.push_back({-normal, input.camera.pad_m + high[axis]});
     }
     const std::size_t first = casters.size();
-    input.frame.objects->query(planes_, ObjectSet::Want::casters, casters);
+    input.frame.objects->query(planes_, ObjectSet::Want::casters, casters, input.light.groups);
     return casters.size() == first
                ? Outcome{OutcomeKind::no_caster, "nothing can throw a shadow on what the camera sees"}
                : Outcome{};

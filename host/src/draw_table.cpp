@@ -120,6 +120,7 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
         const bool is_blended = materials.all()[batch.material].blended;
         caster_objects.push_back({part->second, is_blended && !state.objects[i].casts ? 0U : 1U});
         blended.push_back(is_blended && state.objects[i].casts ? 1 : 0);
+        biases_m.push_back(state.objects[i].bias_m);
         all_receive = all_receive && (is_blended || state.objects[i].receives);
         any_smooth = any_smooth || (!is_blended && geometry.isSmooth(state.objects[i]));
         transforms.push_back(rowsOf(state.objects[i].world_from_object));

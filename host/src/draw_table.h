@@ -39,6 +39,7 @@ struct DrawTable {
     std::vector<vulkan::CasterBatch> caster_batches;
     std::vector<vulkan::DrawPart> caster_parts;
     std::vector<vulkan::DrawObject> caster_objects;
+    std::vector<float> biases_m;        // per object, for CasterDrawer::setBiases()
     std::vector<std::uint8_t> blended;  // per object: it tints the light instead of blocking it
     std::vector<std::uint8_t> closed;   // closedObjects()
     std::vector<std::uint8_t> outlined; // outlinedObjects()

@@ -49,6 +49,7 @@ std::vector<ShadedLight> lightsOf(const scene::Scene& scene, const scene::State&
         light.caster.range_m = source.range_m;
         light.caster.angular_diameter_rad = source.angular_diameter_rad;
         light.caster.radius_m = source.radius_m;
+        light.caster.groups = source.groups;
         light.caster.casts_shadow = source.casts_shadow && placed.strength != glm::vec3(0.0F);
         light.colour = source.colour * source.intensity;
         light.strength = placed.strength;
@@ -88,7 +89,13 @@ void fillObjectSet(const scene::State& state, ObjectSet& objects, std::span<cons
             const bool is_closed = i < closed.size() && closed[i] != 0;
             const std::uint16_t count = i < pieces.size() ? pieces[i] : std::uint16_t{0};
             const bool is_joined = i < joined.size() && joined[i] != 0;
-            objects.add(object.bounds_ws, {object.casts, object.receives, object.dynamic, is_closed, count, is_joined});
+            objects.add(object.bounds_ws, {.casts = object.casts,
+                                           .receives = object.receives,
+                                           .dynamic = object.dynamic,
+                                           .closed = is_closed,
+                                           .pieces = count,
+                                           .joined = is_joined,
+                                           .groups = object.groups});
         } else if (object.dynamic) {
             (void)objects.update(objects.idAt(i), object.bounds_ws);
         }

@@ -55,6 +55,7 @@ Shadows::Shadows(SceneData& scene, const RenderOptions& options)
       casters(scene.gpu.view(), casterOptions(scene.gpu, options))
 {
     casters.setScene(scene.table.caster_parts, scene.table.caster_objects, scene.table.caster_batches);
+    casters.setBiases(scene.table.biases_m);
     if (options.compact_mask.channels > 0) {
         tiles.emplace(scene, options.frames_in_flight);
     }

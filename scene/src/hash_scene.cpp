@@ -138,10 +138,10 @@ private:
     void add(const Node& node)
     {
         const auto& [name, parent, transform, matrix, use_matrix, mesh, skin, camera, light, morph_weights, instances,
-                     casts, receives, clip_planes, dynamic] = node;
+                     casts, receives, groups, bias_m, clip_planes, dynamic] = node;
         addEach(parent, transform, matrix, use_matrix, mesh, skin, camera, light);
         addEach(morph_weights, instances);
-        addEach(casts, receives, clip_planes, dynamic);
+        addEach(casts, receives, groups, bias_m, clip_planes, dynamic);
     }
 
     void add(const Skin& skin)
@@ -173,9 +173,9 @@ private:
     void add(const Light& light)
     {
         const auto& [name, type, colour, intensity, range_m, inner_cone_rad, outer_cone_rad, angular_diameter_rad,
-                     radius_m, cookie, casts_shadow, body] = light;
+                     radius_m, cookie, casts_shadow, groups, body] = light;
         addEach(type, colour, intensity, range_m, inner_cone_rad, outer_cone_rad, angular_diameter_rad, radius_m);
-        addEach(cookie, casts_shadow, body);
+        addEach(cookie, casts_shadow, groups, body);
     }
 
     void add(const Environment& environment)
@@ -192,9 +192,9 @@ private:
 
     void add(const Object& object)
     {
-        const auto& [node, mesh, primitive, instance, deformed, material, casts, receives, dynamic, clip_planes,
-                     world_from_object, bounds_ws] = object;
-        addEach(node, mesh, primitive, instance, deformed, material, casts, receives, dynamic);
+        const auto& [node, mesh, primitive, instance, deformed, material, casts, receives, groups, bias_m, dynamic,
+                     clip_planes, world_from_object, bounds_ws] = object;
+        addEach(node, mesh, primitive, instance, deformed, material, casts, receives, groups, bias_m, dynamic);
         addEach(clip_planes, world_from_object, bounds_ws);
     }
 

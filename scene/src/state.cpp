@@ -162,6 +162,8 @@ void addObjects(const Scene& scene, std::uint32_t node_index, State& state)
         Object object{.node = node_index, .mesh = node.mesh, .primitive = p, .material = primitive.material};
         object.casts = node.casts;
         object.receives = node.receives;
+        object.groups = node.groups;
+        object.bias_m = node.bias_m;
         object.clip_planes = node.clip_planes;
         for (glm::vec4& plane : object.clip_planes) {
             plane.w += glm::dot(glm::vec3(plane), primitive.origin);

@@ -193,57 +193,6 @@ TEST(GltfStructure, LightErrors)
     EXPECT_TRUE(contains(error(R"({"type":"spot","spot":{"innerConeAngle":0.5,"outerConeAngle":0.5}})"), at + "/spot"));
 }
 
-TEST(GltfStructure, LightsSayInTheirExtrasThatTheyCastNoShadow)
-{
-    const auto read = [](const std::string& extras) {
-        return readText(R"({"asset":{"version":"2.0"},"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point")" +
-                        extras + "}]}}}")
-            .lights.at(0)
-            .casts_shadow;
-    };
-    EXPECT_TRUE(read(""));
-    EXPECT_TRUE(read(R"(,"extras":{})"));
-    EXPECT_TRUE(read(R"(,"extras":{"casts_shadow":true})"));
-    EXPECT_FALSE(read(R"(,"extras":{"casts_shadow":false})"));
-    EXPECT_FALSE(read(R"(,"extras":{"mood":3,"casts_shadow":false})"));
-    EXPECT_TRUE(read(R"(,"extras":[false])"));
-    EXPECT_TRUE(read(R"(,"extras":"casts_shadow")"));
-}
-
-TEST(GltfStructure, NodesSayInTheirExtrasWhatCutsThem)
-{
-    const auto text = [](const std::string& extras) {
-        return R"({"asset":{"version":"2.0"},"nodes":[{"name":"wall")" + extras + "}]}";
-    };
-    const auto read = [&](const std::string& extras) {
-        return readText(text(extras)).nodes.at(0).clip_planes;
-    };
-    for (const char* none :
-         {"", R"(,"extras":{})", R"(,"extras":{"clip_planes":[]})", R"(,"extras":[[1,0,0,0]])",
-          R"(,"extras":"clip_planes")", R"(,"extras":{"clip":[[1,0,0,0]],"more":{"clip_planes":1}})"}) {
-        EXPECT_EQ(read(none), kNoClipPlanes) << none;
-    }
-    EXPECT_EQ(read(R"(,"extras":{"clip_planes":[[0,-2,0,3]]})"), (ClipPlanes{glm::vec4(0, -1, 0, 1.5F), kNoClipPlane}));
-    EXPECT_EQ(read(R"(,"extras":{"mood":3,"clip_planes":[[1,0,0,0],[0,0,1e-20,1e-20]]})"),
-              (ClipPlanes{glm::vec4(1, 0, 0, 0), glm::vec4(0, 0, 1, 1)}));
-
-    const std::string at = "/nodes/0/extras/clip_planes";
-    const auto error = [&](const std::string& planes) {
-        return errorOfText(text(R"(,"extras":{"clip_planes":)" + planes + "}"));
-    };
-    EXPECT_TRUE(contains(error("[[0,0,0,1]]"), at + "/0"));
-    EXPECT_TRUE(contains(error("[[1,0,0,0],[0,0,0,0]]"), at + "/1"));
-    EXPECT_TRUE(contains(error("[[1,0,0]]"), at + "/0"));
-    EXPECT_TRUE(contains(error("[[1,0,0,0,0]]"), at + "/0"));
-    EXPECT_TRUE(contains(error(R"([[1,0,0,"0"]])"), at + "/0/3"));
-    EXPECT_TRUE(contains(error("[[1e39,0,0,0]]"), at + "/0/0"));
-    EXPECT_TRUE(contains(error("[[1e-30,0,0,1e30]]"), at + "/0"));
-    EXPECT_TRUE(contains(error("[1,0,0,0]"), at));
-    EXPECT_TRUE(contains(error("{}"), at));
-    EXPECT_TRUE(contains(error("null"), at));
-    EXPECT_TRUE(contains(error("[[1,0,0,0],[0,1,0,0],[0,0,1,0]]"), at));
-}
-
 TEST(GltfStructure, Instances)
 {
     FileBuilder file;

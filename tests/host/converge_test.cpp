@@ -45,10 +45,12 @@ class ConvergingHost : public testing::Test {
 protected:
     void TearDown() override { EXPECT_EQ(gpu_.messages(), std::vector<std::string>{}); }
 
-    ImageF maskAt(FrameRenderer& renderer, double time_s) const
+    ImageF maskAt(FrameRenderer& renderer, double time_s, std::uint32_t groups = kAllGroups) const
     {
         const scene::State state = scene::evaluate(scene_, time_s);
-        renderer.draw(state, smallEye(), {lightsOf(scene_, state).front()});
+        ShadedLight light = lightsOf(scene_, state).front();
+        light.caster.groups = groups;
+        renderer.draw(state, smallEye(), {light});
         return renderer.read({.colour = false, .masks = true}).masks.front();
     }
 
@@ -102,6 +104,29 @@ TEST_F(ConvergingHost, aCasterThatMovesLeavesNoTrail)
         before = now;
     }
     EXPECT_GT(vacated, 50) << "else this says nothing";
+}
+
+// A light that no longer shadows a group, or does so again, is another light to the mean.
+TEST_F(ConvergingHost, aGroupThatALightLeavesIsGoneAtOnce)
+{
+    for (int frame = 0; frame < 16; ++frame) {
+        (void)maskAt(soft_, 0.5);
+    }
+    for (const std::uint32_t groups : {std::uint32_t{2}, kAllGroups}) {
+        const ImageF now = maskAt(plain_, 0.5, groups);
+        const ImageF mean = maskAt(soft_, 0.5, groups);
+        int flat = 0;
+        for (std::uint32_t y = 4; y + 4 < kHeight; ++y) {
+            for (std::uint32_t x = 4; x + 4 < kWidth; ++x) {
+                const float wanted = *now.pixel(x, y);
+                if (isAround(wanted, now, x, y, 4)) {
+                    ++flat;
+                    ASSERT_NEAR(*mean.pixel(x, y), wanted, 0.02) << x << " " << y << ", groups " << groups;
+                }
+            }
+        }
+        EXPECT_GT(flat, 10000) << "else this says nothing";
+    }
 }
 
 // What nothing that moves can shadow goes on converging while something moves elsewhere.

@@ -175,6 +175,8 @@ inline const std::vector<Change<Node>> kNodeChanges{
     of("instances", &Node::instances),
     of("casts", &Node::casts),
     of("receives", &Node::receives),
+    of("groups", &Node::groups),
+    of("bias_m", &Node::bias_m),
     of("clip_planes", &Node::clip_planes),
     of("dynamic", &Node::dynamic),
 };
@@ -216,6 +218,7 @@ inline const std::vector<Change<Light>> kLightChanges{
     of("radius_m", &Light::radius_m),
     of("cookie", &Light::cookie),
     of("casts_shadow", &Light::casts_shadow),
+    of("groups", &Light::groups),
     of("body", &Light::body),
 };
 inline const std::vector<Change<NamedView>> kNamedViewChanges{
@@ -256,6 +259,8 @@ inline const std::vector<Change<Object>> kObjectChanges{
     of("material", &Object::material),
     of("casts", &Object::casts),
     of("receives", &Object::receives),
+    of("groups", &Object::groups),
+    of("bias_m", &Object::bias_m),
     of("dynamic", &Object::dynamic),
     of("clip_planes", &Object::clip_planes),
     of("world_from_object", &Object::world_from_object),

@@ -42,6 +42,7 @@ TEST(CacheKey, EveryIngredientChangesIt)
     const std::vector<std::function<void(Asked&)>> changes{
         [](Asked& a) { a.scene.materials[0].alpha_cutoff += 0.1F; },
         [](Asked& a) { a.state.objects[0].casts = false; },
+        [](Asked& a) { a.state.objects[0].groups = 2; },
         [](Asked& a) { a.view.eye_ws.z = 1e-9; },
         [](Asked& a) { a.view.world_from_clip[3][3] = 1.0 + 1e-9; },
         [](Asked& a) { a.view.size_px.x = 5; },
@@ -52,6 +53,7 @@ TEST(CacheKey, EveryIngredientChangesIt)
         [](Asked& a) { a.light.angular_diameter_rad += 1e-9; },
         [](Asked& a) { a.light.radius_m = 1e-9; },
         [](Asked& a) { a.light.near_m = 1e-9; },
+        [](Asked& a) { a.light.groups = 1; },
         [](Asked& a) { a.options.kind = Kind::hard; },
         [](Asked& a) { a.options.samples *= 2; },
         [](Asked& a) { ++a.options.seed; },

@@ -35,13 +35,14 @@ void add(scene::Hasher& hasher, const View& view)
 /// All of it for either kind: a truth traced again in vain costs seconds, a wrong one taken for right costs trust.
 void add(scene::Hasher& hasher, const Light& light)
 {
-    const auto& [type, position_ws, direction_ws, angular_diameter_rad, radius_m, near_m] = light;
+    const auto& [type, position_ws, direction_ws, angular_diameter_rad, radius_m, near_m, groups] = light;
     hasher.add(type);
     add(hasher, position_ws);
     add(hasher, direction_ws);
     for (const double value : {angular_diameter_rad, radius_m, near_m}) {
         hasher.add(value);
     }
+    hasher.add(groups);
 }
 
 } // namespace

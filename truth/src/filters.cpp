@@ -45,6 +45,12 @@ bool passes(const Part& part, const Hit& hit, const RayContext& context)
            (part.alpha && !part.alpha->isSolid(hit.triangle, hit.u, hit.v));
 }
 
+/// A shadow ray of a light that names none of the object's groups.
+bool isOfOthers(const Part& part, const RayContext& context)
+{
+    return !context.from_camera && (part.groups & context.groups) == 0;
+}
+
 /// A clip plane has cut away the point that is hit.
 bool isCutAway(const Part& part, const Hit& hit)
 {
@@ -90,7 +96,7 @@ void filterNearest(const RTCFilterFunctionNArguments* args)
         }
         const Hit hit = hitOf(*args, lane);
         const Part& part = parts[hit.object];
-        if (isCutAway(part, hit)) {
+        if (isOfOthers(part, context) || isCutAway(part, hit)) {
             args->valid[lane] = 0;
             continue;
         }
@@ -112,7 +118,7 @@ void filterAny(const RTCFilterFunctionNArguments* args)
         }
         const Hit hit = hitOf(*args, lane);
         const Part& part = parts[hit.object];
-        if (isCutAway(part, hit)) {
+        if (isOfOthers(part, context) || isCutAway(part, hit)) {
             args->valid[lane] = 0;
             continue;
         }

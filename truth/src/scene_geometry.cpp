@@ -104,7 +104,8 @@ void SceneGeometry::describe(const scene::Scene& scene, const scene::State& stat
         const scene::Material& material =
             object.material < scene.materials.size() ? scene.materials[object.material] : kDefault;
         Part& part = parts_[i];
-        part.casts = object.casts;
+        part.casts = object.casts && object.groups != 0;
+        part.groups = object.groups;
         part.receives = object.receives;
         part.clip_planes = object.clip_planes;
         part.double_sided = material.double_sided;

@@ -48,8 +48,9 @@ struct Tint {
 
 /// What a ray carries into the filters that Embree calls at every hit.
 struct RayContext {
-    RTCIntersectContext base; // first: a filter is handed a pointer to it
-    bool from_camera = false; // single-sided triangles are passed through from behind
+    RTCIntersectContext base;           // first: a filter is handed a pointer to it
+    bool from_camera = false;           // single-sided triangles are passed through from behind
+    std::uint32_t groups = 0xFFFFFFFFU; // of a shadow ray: Light::groups
     /// The triangle that the ray starts on, which it does not hit. Of a shadow ray.
     std::uint32_t own_object = RTC_INVALID_GEOMETRY_ID;
     std::uint32_t own_triangle = RTC_INVALID_GEOMETRY_ID;
@@ -81,6 +82,7 @@ struct Part {
     bool mirrored = false;
     bool double_sided = false;
     bool casts = true;
+    std::uint32_t groups = 1; // scene::Object::groups
     bool receives = true;
     bool instanced = false;
     /// Flat, or so nearly that the inverse in single precision that Embree keeps of an instance would misplace it.

@@ -43,7 +43,7 @@ struct ShadowRays::Packet {
     alignas(64) std::array<int, kLanes> valid{};
     alignas(64) std::array<float, kLanes> ends{};
 
-    Packet(const Receiver& receiver, const Seen& light);
+    Packet(const Receiver& receiver, const Seen& light, std::uint32_t groups);
     void aim(std::span<const DiscPoint> set, std::uint32_t first, const DiscShift& shift);
 
 private:
@@ -65,12 +65,13 @@ private:
     float above_plane_;
 };
 
-ShadowRays::Packet::Packet(const Receiver& receiver, const Seen& light)
+ShadowRays::Packet::Packet(const Receiver& receiver, const Seen& light, std::uint32_t groups)
     : normal_(receiver.normal), smooth_normal_(receiver.smooth_normal), centre_(light.direction)
 {
     context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     context.own_object = receiver.object;
     context.own_triangle = receiver.triangle;
+    context.groups = groups;
     for (std::uint32_t k = 0; k < kLanes; ++k) {
         rays.org_x[k] = static_cast<float>(receiver.rel.x);
         rays.org_y[k] = static_cast<float>(receiver.rel.y);
@@ -202,6 +203,7 @@ ShadowRays::Result ShadowRays::traceFrom(const Receiver& receiver, const Seen& l
 ShadowRays::Along ShadowRays::lookAlong(const Receiver& receiver, const glm::dvec3& direction, double end) const
 {
     RayContext context;
+    context.groups = light_.groups;
     context.own_object = receiver.object;
     context.own_triangle = receiver.triangle;
     RTCRayHit query{};
@@ -234,7 +236,7 @@ ShadowRays::Result ShadowRays::traceCentre(const Receiver& receiver, const Seen&
 
 ShadowRays::Result ShadowRays::traceDisc(const Receiver& receiver, const Seen& light) const
 {
-    Packet packet(receiver, light);
+    Packet packet(receiver, light, light_.groups);
     Result result;
     std::array<double, kSampleSets> lit{};
     Blocked blocked;

@@ -55,7 +55,7 @@ double moveOf(const Light& before, const Light& now)
 
 bool isSameLight(const Light& a, const Light& b)
 {
-    return a.key == b.key && a.type == b.type && a.options == b.options;
+    return a.key == b.key && a.type == b.type && a.options == b.options && a.groups == b.groups;
 }
 
 /// How far beside a caster the filter may be dark, metres.
@@ -162,7 +162,9 @@ std::uint32_t ConvergePass::stood(const Frame& frame, const Plan& plan) const
 {
     bool stands = goesOn(plan) && history_.stands(frame) && plan.moved_ws.empty();
     for (std::size_t i = 0; stands && i < plan.lights.size(); ++i) {
-        stands = !lights_[i].known || moveOf(lights_[i].light, frame.lights[i]) == 0.0;
+        const Light& before = lights_[i].light;
+        const Light& now = frame.lights[i];
+        stands = !lights_[i].known || (isSameLight(before, now) && moveOf(before, now) == 0.0);
     }
     return stands ? stood_ + 1 : 0;
 }

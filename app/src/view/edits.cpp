@@ -137,7 +137,8 @@ bool differs(const Settings& a, const Settings& b, std::string_view key)
 
 bool changesScene(const Settings& from, const Settings& to)
 {
-    constexpr std::array<std::string_view, 5> kOfScene{"ground", "up-axis", "override-material", "seed", "limit"};
+    constexpr std::array<std::string_view, 6> kOfScene{"object", "ground", "up-axis", "override-material",
+                                                       "seed",   "limit"};
     return from.scene != to.scene ||
            std::any_of(kOfScene.begin(), kOfScene.end(), [&](std::string_view key) { return differs(from, to, key); });
 }

@@ -17,11 +17,17 @@ namespace gnomon {
 /// Pieces of one object that ids tell apart; more share numbers.
 inline constexpr std::uint32_t kMostPieces = 4096;
 
+/// Casters and lights meet in groups, a bit each: a light's maps hold casters of the light's groups alone.
+inline constexpr std::uint32_t kAllGroups = 0xFFFFFFFFU;
+/// Group 0, which objects are in unless they say otherwise. Then one object leaves it for a group of its own, and a
+/// light that leaves out that group needs no word about any other object.
+inline constexpr std::uint32_t kCommonGroup = 1;
+
 /// What an object does to shadows.
 struct ObjectFlags {
     /// Off spares drawing what throws no shadow anyway, such as level ground. Filterable maps
     /// (FilterTraits::filterable) draw it all the same where the camera sees it, because their averages need the
-    /// receiver's own depth; then it casts.
+    /// receiver's own depth; then it casts. `groups` 0 is for what must not cast.
     bool casts = true;
     bool receives = true; // off: planning takes no notice that the camera sees it
     bool dynamic = false; // a hint: expected to move; kept apart from what stands still
@@ -35,6 +41,11 @@ struct ObjectFlags {
     /// Its surface goes on in others' without an edge, as those of floor tiles do. MultiDivide::receivers then has
     /// frustums fade over into each other there. Nothing else asks.
     bool joined = false;
+    /// The groups that it casts in: bits, all values are legal. A light draws it to maps, and counts it as a volume,
+    /// where Light::groups has one of them; it receives shadow of any light. 0: no light does, whatever the filter.
+    std::uint32_t groups = kCommonGroup;
+
+    friend bool operator==(const ObjectFlags&, const ObjectFlags&) = default;
 };
 
 /// Names an object for as long as it lives. Its index is its place in plans and in the host's own arrays; when the
@@ -67,8 +78,8 @@ inline constexpr float kFarthestBounds_m = 1e12F;
 /// An object whose bounds are empty, not finite or beyond kFarthestBounds_m lives, but is nowhere: no query finds it,
 /// no box holds it, and its own bounds read as empty. It is back with the first update() that says where it is.
 ///
-/// A set that was moved from is empty and may be used again. add() and update() throw std::bad_alloc when memory runs
-/// out, and then have changed nothing; the others that change something take no memory.
+/// A set that was moved from is empty and may be used again. add(), update() and setFlags() throw std::bad_alloc when
+/// memory runs out, and then have changed nothing; the others that change something take no memory.
 class GNOMON_API ObjectSet {
 public:
     ObjectSet();
@@ -83,6 +94,9 @@ public:
     /// Says that an object's shape changed inside unchanged bounds (deformation), so maps that show it are redrawn.
     /// False: no such object.
     bool touch(ObjectId object);
+    /// Says that an object does something else to shadows from now on; O(1). The same flags: no change is recorded.
+    /// False: no such object.
+    bool setFlags(ObjectId object, const ObjectFlags& flags);
     /// False: no such object.
     bool remove(ObjectId object);
 
@@ -109,7 +123,7 @@ public:
     /// Box around all live objects; empty when there are none. Exact; the first call after an object left the rim
     /// looks at all of them, so it is not for several threads at once (query() is).
     [[nodiscard]] Aabb bounds() const;
-    /// Counts up at every add, update, touch and remove that did something.
+    /// Counts up at every add, update, touch, setFlags and remove that did something.
     [[nodiscard]] std::uint64_t version() const;
     /// That count at the last change of the object that has this index, or had it last; 0 where none ever had.
     [[nodiscard]] std::uint64_t changed(std::uint32_t index) const;
@@ -121,8 +135,10 @@ public:
     /// Which objects a query() finds.
     enum class Want : std::uint8_t { casters, receivers, all };
     /// Appends, in ascending order, the index of every live object whose bounds the convex region `planes` (inward) may
-    /// touch. No object inside is ever left out. `out` is not cleared.
-    void query(std::span<const Plane> planes, Want want, std::vector<std::uint32_t>& out) const;
+    /// touch. No object inside is ever left out. `out` is not cleared. `groups`: casters of these alone, of a light's
+    /// groups say; plays no part for Want::receivers and Want::all. Who casts in no group is no caster.
+    void query(std::span<const Plane> planes, Want want, std::vector<std::uint32_t>& out,
+               std::uint32_t groups = kAllGroups) const;
 
     /// The cells of its octrees that have objects of their own, in no order to rely on. For pictures.
     [[nodiscard]] std::vector<OctreeCell> cells() const;

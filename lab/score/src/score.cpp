@@ -37,6 +37,7 @@ truth::Light truthLight(const Light& light)
     out.angular_diameter_rad = light.angular_diameter_rad;
     out.radius_m = light.radius_m;
     out.near_m = light.near_m;
+    out.groups = light.groups;
     return out;
 }
 

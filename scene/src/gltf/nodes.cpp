@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "gltf/casting_extras.h"
 #include "gltf/instancing.h"
 #include "gltf/scene_part.h"
 
@@ -169,10 +170,12 @@ void readNodes(Document& document)
     const Tree tree = readTree(document);
     std::vector<Node> all;
     std::vector<bool> hidden;
+    std::vector<Casting> castings; // of each node's own
     all.reserve(tree.parents.size());
     for (std::size_t i = 0; i < tree.parents.size(); ++i) {
         all.push_back(readNode(document, nodeView(document, i)));
         hidden.push_back(isHidden(nodeView(document, i)));
+        castings.push_back(readCasting(nodeView(document, i)));
     }
     const ScenePart part = pickScene(document, tree, all);
     if (!part.name.empty()) {
@@ -185,6 +188,8 @@ void readNodes(Document& document)
         const std::uint32_t parent = tree.parents[old];
         node.parent = parent == kNone ? kNone : document.nodes[parent];
         hidden[old] = hidden[old] || (parent != kNone && hidden[parent]);
+        castings[old] = parent == kNone ? castings[old] : casting(castings[parent], castings[old]);
+        apply(castings[old], node);
         if (hidden[old] || !part.shown[old]) {
             hide(node);
         }

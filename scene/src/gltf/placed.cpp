@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a node can place besides meshes: cameras and punctual lights.
+#include "gltf/casting_extras.h"
 #include "gltf/document.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -61,13 +62,15 @@ void readSpot(const JsonView& view, Light& light)
     }
 }
 
-/// What glTF leaves to applications. Ours: {"casts_shadow": false} is a light that shines through everything.
+/// What glTF leaves to applications. Ours: {"casts_shadow": false} is a light that shines through everything, and
+/// {"gnomon": {"groups": [0, 3]}} one that shines through what is in neither group.
 void readExtras(const JsonView& view, Light& light)
 {
     const std::optional<JsonView> extras = view.find("extras");
     if (extras && extras->value().is_object()) { // glTF allows any value, and others' are not ours to judge
         light.casts_shadow = extras->boolean("casts_shadow", true);
     }
+    light.groups = readLightGroups(view).value_or(light.groups);
 }
 
 /// False when the type is none we know.
