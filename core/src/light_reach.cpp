@@ -4,6 +4,7 @@
 #include "motion/steps.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <gnomon/shared/cascade_fit.h>
 
 #include <algorithm>
@@ -42,6 +43,23 @@ Aabb reachBox(const Light& light, const Aabb& scene_ws)
     const glm::vec3 range(static_cast<float>(light.range_m));
     const glm::vec3 place(light.position_ws);
     return {glm::max(scene_ws.min, place - range), glm::min(scene_ws.max, place + range)};
+}
+
+bool isTooWideForPcss(const Light& light, const ObjectSet& objects, std::span<const std::uint32_t> receivers)
+{
+    if (light.type == LightType::directional) {
+        return light.angular_diameter_rad > kWidestPcssSun_rad;
+    }
+    double farthest_m = 0.0;
+    for (const std::uint32_t object : receivers) {
+        const Aabb box = objects.bounds(object);
+        const glm::dvec3 nearest_ws = glm::clamp(light.position_ws, glm::dvec3(box.min), glm::dvec3(box.max));
+        const double distance_m = glm::distance(nearest_ws, light.position_ws);
+        if (light.range_m == 0.0 || distance_m <= light.range_m) {
+            farthest_m = std::max(farthest_m, distance_m);
+        }
+    }
+    return light.radius_m > kWidestPcssLamp * farthest_m;
 }
 
 } // namespace gnomon

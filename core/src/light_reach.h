@@ -5,6 +5,11 @@
 
 #include "light_space.h"
 
+#include <gnomon/object_set.h>
+
+#include <cstdint>
+#include <span>
+
 namespace gnomon {
 
 /// As LightRect has it, the farthest that a ray from `far_m` to a point of the light is off the ray to the light's
@@ -16,6 +21,21 @@ namespace gnomon {
 
 /// Of a map that holds still: what no receiver in the scene exceeds, in steps.
 [[nodiscard]] double steadyReach(const Light& light, const LightSpace& space, const Aabb& scene_ws);
+
+/// What filter pcss takes: under wider lights the few texels of its discs miss what is close to the receiver, and no
+/// mean depth stands for what is near and far. Of a sun the diameter, a little above 25 degrees for what rounding adds;
+/// of a lamp the radius over the distance of the nearest point of the farthest receiver: 11 degrees across there.
+constexpr double kWidestPcssSun_rad = 0.43634;
+constexpr double kWidestPcssLamp = 0.1;
+inline constexpr Outcome kTooWideForPcss{
+    OutcomeKind::refused,
+    "pcss takes suns up to 25 degrees across and lamps whose radius is at most a tenth of their distance to the "
+    "farthest receiver: beyond, what is near and far has no mean depth; filter raymarch takes any"};
+
+/// Is the light wider than that? `receivers`: of those in the camera's sight, of which those in the light's range
+/// count.
+[[nodiscard]] bool isTooWideForPcss(const Light& light, const ObjectSet& objects,
+                                    std::span<const std::uint32_t> receivers);
 
 /// How far the rays of a light lead, and no farther than the scene.
 [[nodiscard]] Aabb reachBox(const Light& light, const Aabb& scene_ws);

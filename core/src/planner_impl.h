@@ -166,7 +166,7 @@ struct Planner::Impl {
     [[nodiscard]] std::uint64_t idsKey(const View& view) const;
     void planLight(const Frame& frame, std::uint32_t index);
     [[nodiscard]] bool hasRoom(std::uint32_t index, const Setup& setup) const;
-    Outcome prospect(std::uint32_t index, const Setup& setup) const;
+    Outcome prospect(const Frame& frame, std::uint32_t index, const Setup& setup) const;
     std::uint32_t followSun(const Frame& frame, const Recipe& recipe, const Light& light, SunSteps& steps);
     [[nodiscard]] LightSample sampleAt(const Frame& frame, std::uint32_t index) const;
     Outcome planStands(const Frame& frame, std::uint32_t index, std::uint32_t earlier_slot);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One light of a frame: where it stands, how it is divided, and for each slice a view and what of its map has to be
 // drawn.
+#include "light_reach.h"
 #include "planner_impl.h"
 #include "soften/light_sample.h"
 
@@ -39,7 +40,7 @@ void Planner::Impl::planLight(const Frame& frame, std::uint32_t index)
     }
     const std::uint32_t earlier_slot = followSun(frame, setup.recipe, light, planned.steps);
     if (planned.outcome.kind == OutcomeKind::ok) {
-        planned.outcome = prospect(index, setup);
+        planned.outcome = prospect(frame, index, setup);
     }
     if (planned.outcome.kind == OutcomeKind::ok && setup.recipe.filter->ids) {
         planned.outcome = handOut(frame, index);
@@ -131,7 +132,7 @@ bool Planner::Impl::hasRoom(std::uint32_t index, const Setup& setup) const
 }
 
 /// Can a light that may have maps have any in this frame?
-Outcome Planner::Impl::prospect(std::uint32_t index, const Setup& setup) const
+Outcome Planner::Impl::prospect(const Frame& frame, std::uint32_t index, const Setup& setup) const
 {
     if (setup.recipe.hasMaps() && !hasRoom(index, setup)) {
         return {OutcomeKind::atlas_full, "the atlas has no layer left for this light"};
@@ -145,6 +146,10 @@ Outcome Planner::Impl::prospect(std::uint32_t index, const Setup& setup) const
             some_nowhere
                 ? "the camera sees nothing that receives shadow, and some objects are nowhere (ObjectSet::nowhere())"
                 : "the camera sees nothing that receives shadow"};
+    }
+    if (setup.recipe.options.technique.filter == Filter::pcss &&
+        isTooWideForPcss(frame.lights[index], *frame.objects, setup.receivers)) {
+        return kTooWideForPcss;
     }
     return {};
 }

@@ -21,7 +21,7 @@ void Planner::Impl::planVolumes(const Frame& frame, std::uint32_t index)
     LightPlan& planned = plan.lights[index];
     planned.first_volume = static_cast<std::uint32_t>(plan.casters.size());
     if (planned.outcome.kind == OutcomeKind::ok) {
-        planned.outcome = prospect(index, setups[planned.options]);
+        planned.outcome = prospect(frame, index, setups[planned.options]);
     }
     if (planned.outcome.kind == OutcomeKind::ok) {
         planned.outcome = listVolumes(frame, index);

@@ -23,6 +23,8 @@ layout(push_constant, std430) uniform Push
 shared float gains[kGapBins];            // what a split there saves
 shared int splits[kDepthLayers + 1];     // the bins where layers begin, and kGapBins
 shared float begins_of[kDepthLayers + 1]; // the same as depths
+shared float uniform_loss;               // what layers of one width lose
+shared bool is_uniform;                  // are those taken?
 
 // From single losses to sums: up the rows, as a near end leaves all that a later one leaves; then along them.
 void sumUp(int thread)
@@ -131,10 +133,25 @@ float carried(int layer)
     return momentDepth(linear * push.carry.x + push.carry.y, push.slot.w, push.carry.w);
 }
 
-// Layers that were there stay where they are while they lose next to nothing by it; else they go a share of the way.
+// Layers of one width, unless the splits save enough of what they lose.
+void chooseLayers(int count)
+{
+    uniform_loss = 0.0;
+    for (int i = 0; i < count; ++i) {
+        uniform_loss += lossOf(uniformBin(i, count), uniformBin(i + 1, count));
+    }
+    is_uniform = !savesEnough(wholeLoss(count), uniform_loss, count, kConvincingShare);
+    for (int i = 0; i <= count; ++i) {
+        begins_of[i] = is_uniform ? uniformBegin(i, count) : float(splits[i]) / float(kGapBins);
+    }
+}
+
+// Layers that were there stay where they are while they lose next to nothing by it, and save enough; else they go a
+// share of the way.
 void moveFromLast(int count)
 {
-    float least = wholeLoss(count);
+    float all = float(lost[kGapBins]);
+    float least = is_uniform ? uniform_loss : wholeLoss(count);
     bool stay = true;
     for (int i = 1; i < count; ++i) {
         float last = carried(i);
@@ -142,7 +159,9 @@ void moveFromLast(int count)
         splits[i] = int(last * float(kGapBins) + 0.5);
         stay = stay && splits[i] - splits[i - 1] >= kLeastBins;
     }
-    stay = stay && splits[count] - splits[count - 1] >= kLeastBins && isLossAlike(wholeLoss(count), least, float(lost[kGapBins]));
+    float held = wholeLoss(count);
+    stay = stay && splits[count] - splits[count - 1] >= kLeastBins && isLossAlike(held, least, all) &&
+           savesEnough(held, uniform_loss, count, kHeldGapsShare);
     for (int i = 1; stay && i < count; ++i) {
         begins_of[i] = carried(i);
     }
@@ -155,9 +174,7 @@ void main()
     sumUp(thread);
     partLayers(thread, count);
     if (thread == 0) {
-        for (int i = 0; i <= count; ++i) {
-            begins_of[i] = float(splits[i]) / float(kGapBins);
-        }
+        chooseLayers(count);
         if (push.how.z == 0.0) {
             moveFromLast(count);
         }

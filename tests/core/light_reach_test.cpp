@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 namespace gnomon {
 namespace {
@@ -112,6 +113,42 @@ TEST(LightReach, NoRayLeavesItsMapTooSoon)
 TEST(LightReach, WithoutRoomRaysDoLeave)
 {
     EXPECT_GT(raysThatLeave(Partition::cascades, Fit::uniform, Motion::free, Filter::pcf), 0);
+}
+
+Outcome outcomeUnder(const Light& light, Filter filter)
+{
+    ObjectSet set; // a plate over a ground
+    set.add(test::boxAt({0, -0.5, 0}, {100, 0.5, 100}), {true, true, false});
+    set.add(test::boxAt({0, 5, 0}, {1, 0.1, 1}), {true, true, false});
+    Frame frame;
+    frame.camera = test::perspectiveCamera({1.0, 3.0, 30.0}, {0.0, 1.0, 0.0}, 0.9);
+    frame.lights = {&light, 1};
+    frame.objects = &set;
+    ShadowOptions options{.technique = kPlainTechnique};
+    options.technique.filter = filter;
+    options.map_size = 512;
+    return Planner(options).plan(frame).lights[0].outcome;
+}
+
+/// Its discs are no way to see what is near and far under a wide light: it showed hard or blotched shadows there.
+TEST(WideLights, AreRefusedByPcssAlone)
+{
+    Light sun = test::sun({0.4, -1.0, 0.2});
+    for (const double degrees : {0.5, 8.0, 25.0, 25.5, 30.0, 60.0, 90.0}) {
+        sun.angular_diameter_rad = degrees * std::numbers::pi / 180.0;
+        const Outcome outcome = outcomeUnder(sun, Filter::pcss);
+        EXPECT_EQ(outcome.kind, degrees > 25.0 ? OutcomeKind::refused : OutcomeKind::ok) << degrees;
+        EXPECT_EQ(outcome.reason.find("25 degrees") != std::string_view::npos, degrees > 25.0);
+        EXPECT_EQ(outcomeUnder(sun, Filter::raymarch).kind, OutcomeKind::ok) << degrees;
+        EXPECT_EQ(outcomeUnder(sun, Filter::pcf).kind, OutcomeKind::ok) << degrees;
+    }
+    Light lamp = test::spot({0.0, 30.0, 0.0}, {0.0, -1.0, 0.0}, 0.5, 60.0);
+    for (const double radius_m : {0.1, 1.0, 2.9, 3.2, 5.0}) { // over a ground 30 m below
+        lamp.radius_m = radius_m;
+        EXPECT_EQ(outcomeUnder(lamp, Filter::pcss).kind, radius_m > 3.0 ? OutcomeKind::refused : OutcomeKind::ok)
+            << radius_m;
+        EXPECT_EQ(outcomeUnder(lamp, Filter::raymarch).kind, OutcomeKind::ok) << radius_m;
+    }
 }
 
 } // namespace

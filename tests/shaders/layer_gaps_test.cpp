@@ -59,5 +59,21 @@ TEST(LayerGaps, aLayerLosesALittleForItsWidth)
     EXPECT_TRUE(isLossAlike(layerLoss(0.0, 1e6, 256), 2.0 * layerLoss(0.0, 1e6, 128), 1e6)) << "no more than widths";
 }
 
+TEST(LayerGaps, haveToSaveTheMoreTheMoreLayersThereAre)
+{
+    EXPECT_TRUE(savesEnough(0.06, 1.0, 2, kConvincingShare));
+    EXPECT_FALSE(savesEnough(0.07, 1.0, 2, kConvincingShare));
+    EXPECT_TRUE(savesEnough(0.07, 1.0, 2, kHeldGapsShare));
+    EXPECT_FALSE(savesEnough(0.005, 1.0, 8, kConvincingShare));
+    EXPECT_TRUE(savesEnough(0.003, 1.0, 8, kConvincingShare));
+    for (int count = 2; count <= 8; ++count) {
+        EXPECT_EQ(uniformBin(0, count), 0);
+        EXPECT_EQ(uniformBin(count, count), kGapBins);
+        for (int i = 1; i < count; ++i) {
+            EXPECT_NEAR(uniformBin(i, count), uniformBegin(i, count) * kGapBins, 0.5);
+        }
+    }
+}
+
 } // namespace
 } // namespace gnomon::shared

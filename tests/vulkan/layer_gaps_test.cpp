@@ -4,6 +4,7 @@
 
 #include <gnomon/shared/depth_layers.h>
 
+#include <algorithm>
 #include <set>
 
 namespace gnomon::test {
@@ -50,10 +51,11 @@ TEST_F(LayersByGaps, keepAwayFromWhatTheyPart)
     EXPECT_LT(begins, kGround - 0.3F * (kGround - kSail));
 }
 
+/// Until layers of one width part ground and sail nearly as well.
 TEST_F(LayersByGaps, areThoseOfFewerLayersAndMore)
 {
     std::set<float> before;
-    for (std::uint32_t count = 2; count <= kMaxDepthLayers; ++count) {
+    for (std::uint32_t count = 2; count <= 3; ++count) {
         Placed placed(lvsm(LayerPlacement::gaps, count));
         const auto layers = placed.place(viewOf(kWhole), barsOverASail());
         std::set<float> splits;
@@ -69,6 +71,17 @@ TEST_F(LayersByGaps, areThoseOfFewerLayersAndMore)
     }
 }
 
+TEST_F(LayersByGaps, leaveNextToNothingBeforeTheSailInTheGroundsLayer)
+{
+    for (std::uint32_t count = 2; count <= kMaxDepthLayers; ++count) {
+        Placed placed(lvsm(LayerPlacement::gaps, count));
+        const auto layers = placed.place(viewOf(kWhole), barsOverASail());
+        const auto next = std::find_if(layers.begin(), layers.end(),
+                                       [](const pack::DepthLayer& layer) { return layer.begins > kGround; });
+        EXPECT_GE((next - 1)->near, kSail - 0.02F) << count << " layers";
+    }
+}
+
 TEST_F(LayersByGaps, areOfOneWidthWhereNothingIsOverAnything)
 {
     for (const float depth : {0.4F, 1.0F}) {
@@ -77,6 +90,44 @@ TEST_F(LayersByGaps, areOfOneWidthWhereNothingIsOverAnything)
         for (std::size_t i = 0; i < layers.size(); ++i) {
             EXPECT_NEAR(layers[i].begins, 0.25 * double(i), 0.1) << i;
         }
+    }
+}
+
+/// Steps at all depths down to the ground, side by side: many pairs, no gap among them.
+std::vector<float> stairs()
+{
+    std::vector<float> depths;
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            const std::uint32_t step = (x / 8 * 7 + y / 8 * 5) % 16;
+            depths.push_back(0.05F + 0.055F * static_cast<float>(step));
+        }
+    }
+    return depths;
+}
+
+TEST_F(LayersByGaps, areOfOneWidthWhereNoSplitSavesMuch)
+{
+    for (const std::uint32_t count : {2U, 3U, 4U, 8U}) {
+        for (const Motion motion : {Motion::free, Motion::snap}) {
+            Placed placed(lvsm(LayerPlacement::gaps, count));
+            const auto layers = placed.place(viewOf(kWhole), stairs(), motion);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                EXPECT_NEAR(layers[i].begins, double(i) / count, 1e-6) << count << " layers";
+            }
+        }
+    }
+}
+
+TEST_F(LayersByGaps, comeBackToOneWidthWhenTheGapCloses)
+{
+    for (const Motion motion : {Motion::free, Motion::snap}) {
+        Placed placed(lvsm(LayerPlacement::gaps, 2));
+        EXPECT_GT(placed.place(viewOf(kWhole), barsOverASail(), motion)[1].begins, kSail);
+        for (int frame = 0; frame < 20; ++frame) {
+            (void)placed.place(viewOf(kWhole), stairs(), motion);
+        }
+        EXPECT_NEAR(placed.place(viewOf(kWhole), stairs(), motion)[1].begins, 0.5, 1e-4);
     }
 }
 

@@ -12,6 +12,9 @@
 // rounding grows with it, and layers that have nothing to part should be of one width.
 // Layers are parted one by one, each time where the whole loses most: so more layers have all the splits of fewer, and
 // do not bleed where these do not. A split then goes to the middle of where it may lie for next to the same loss.
+// A map does not hold the walls below its casters, nor the floors below its roofs, and a split that parts what it holds
+// leaves these in the wide layer before it. So layers are of one width unless the splits are expected to leave a small
+// share of what those leave: savesEnough().
 #ifndef GNOMON_LAYER_GAPS_H
 #define GNOMON_LAYER_GAPS_H
 #include "depth_layers.h"
@@ -50,6 +53,22 @@ GN_FN real layerLoss(real left, real all, int bins)
 GN_FN bool isLossAlike(real loss, real least, real all)
 {
     return loss <= real(1.125) * least + real(0.001) * all;
+}
+
+// The bin where layer i of `count` of one width begins.
+GN_FN int uniformBin(int i, int count)
+{
+    return (i * kGapBins + count / 2) / count;
+}
+
+// Do splits save enough of what `count` layers of one width lose? They do if they leave no more than a share of it over
+// the square of the count: what narrow layers leave is little, and what a map does not hold weighs more. Layers that
+// were there before may leave twice the share, so that they do not go to and fro.
+GN_CONST real kConvincingShare = real(0.25);
+GN_CONST real kHeldGapsShare = real(0.5);
+GN_FN bool savesEnough(real loss, real of_uniform, int count, real share)
+{
+    return loss * real(count * count) <= share * of_uniform;
 }
 
 GN_END
