@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 
 namespace gnomon {
 
@@ -45,21 +47,28 @@ Aabb reachBox(const Light& light, const Aabb& scene_ws)
     return {glm::max(scene_ws.min, place - range), glm::min(scene_ws.max, place + range)};
 }
 
-bool isTooWideForPcss(const Light& light, const ObjectSet& objects, std::span<const std::uint32_t> receivers)
+bool isTooWideForPcss(const Light& light, const ObjectSet& objects)
 {
     if (light.type == LightType::directional) {
         return light.angular_diameter_rad > kWidestPcssSun_rad;
     }
-    double farthest_m = 0.0;
-    for (const std::uint32_t object : receivers) {
-        const Aabb box = objects.bounds(object);
+    bool reaches = false;
+    const std::span<const Aabb> bounds = objects.allBounds();
+    for (std::uint32_t object = 0; object < bounds.size(); ++object) {
+        const Aabb& box = bounds[object];
+        if (box.empty() || !objects.flags(object).receives) {
+            continue;
+        }
         const glm::dvec3 nearest_ws = glm::clamp(light.position_ws, glm::dvec3(box.min), glm::dvec3(box.max));
         const double distance_m = glm::distance(nearest_ws, light.position_ws);
         if (light.range_m == 0.0 || distance_m <= light.range_m) {
-            farthest_m = std::max(farthest_m, distance_m);
+            reaches = true;
+            if (light.radius_m <= kWidestPcssLamp * distance_m) {
+                return false; // mostly one of the first
+            }
         }
     }
-    return light.radius_m > kWidestPcssLamp * farthest_m;
+    return reaches && light.radius_m > 0.0;
 }
 
 } // namespace gnomon

@@ -7,9 +7,6 @@
 
 #include <gnomon/object_set.h>
 
-#include <cstdint>
-#include <span>
-
 namespace gnomon {
 
 /// As LightRect has it, the farthest that a ray from `far_m` to a point of the light is off the ray to the light's
@@ -32,10 +29,8 @@ inline constexpr Outcome kTooWideForPcss{
     "pcss takes suns up to 25 degrees across and lamps whose radius is at most a tenth of their distance to the "
     "farthest receiver: beyond, what is near and far has no mean depth; filter raymarch takes any"};
 
-/// Is the light wider than that? `receivers`: of those in the camera's sight, of which those in the light's range
-/// count.
-[[nodiscard]] bool isTooWideForPcss(const Light& light, const ObjectSet& objects,
-                                    std::span<const std::uint32_t> receivers);
+/// Is the light wider than that? All receivers in its range count, in sight or not: no shadow goes as the camera turns.
+[[nodiscard]] bool isTooWideForPcss(const Light& light, const ObjectSet& objects);
 
 /// How far the rays of a light lead, and no farther than the scene.
 [[nodiscard]] Aabb reachBox(const Light& light, const Aabb& scene_ws);

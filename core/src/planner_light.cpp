@@ -148,7 +148,7 @@ Outcome Planner::Impl::prospect(const Frame& frame, std::uint32_t index, const S
                 : "the camera sees nothing that receives shadow"};
     }
     if (setup.recipe.options.technique.filter == Filter::pcss &&
-        isTooWideForPcss(frame.lights[index], *frame.objects, setup.receivers)) {
+        isTooWideForPcss(frame.lights[index], *frame.objects)) {
         return kTooWideForPcss;
     }
     return {};
