@@ -40,6 +40,7 @@ struct Pair {
 };
 constexpr Pair kPairs[] = {
     {"eye", "target", "--eye x,y,z --target x,y,z", "where the camera is, and what it looks at"},
+    {"fov", "ortho", "--fov DEG --ortho HEIGHT", "vertical angle of view, or metres of an orthographic one"},
     {"technique", "techniques", "--technique T --techniques LIST",
      "one: pcf+sdsm+map-size=1024; or several: hard,pcf; all; @FILE"},
     {"validate", "strict", "--validate --strict",

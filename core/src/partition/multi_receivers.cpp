@@ -29,8 +29,6 @@ namespace gnomon {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Tangent of half the angle of a lamp's widest frustum, 120 degrees.
-constexpr double kWidestTangent = 1.7320508;
 /// A receiver is cut into no more pieces: the faces of a cube.
 constexpr std::uint32_t kMostCuts = kCubeFaces;
 /// A light with so many frustums gets more only where none can turn to a receiver: rather coarse texels than none.
@@ -39,17 +37,10 @@ constexpr std::size_t kEnoughCones = 16;
 constexpr double kFinerHeld = 0.7;
 /// And one that begins to hold still takes so much of the largest map: what it holds will move.
 constexpr double kLargestHeld = 0.6;
-/// Less is as good as nothing: half a rectangle's width, as LightRect has it.
-constexpr double kLeastHalf = 1e-6;
 
 bool isSun(const Light& light)
 {
     return light.type == LightType::directional;
-}
-
-glm::dvec3 axisOf(const Light& light, const LightCone& cone)
-{
-    return isSun(light) ? light.direction_ws : cone.centre;
 }
 
 double between(const Light& light, const glm::dvec3& a, const glm::dvec3& b)
@@ -100,12 +91,6 @@ double sideOf(const ReceiverCones::Input& input, const ReceiverCone& cone)
     return 2.0 * halfOf(input, cone.cone) / cone.texel;
 }
 
-Plane planeOf(const glm::dvec4& row)
-{
-    const double length = glm::length(glm::dvec3(row));
-    return {glm::dvec3(row) / length, row.w / length};
-}
-
 Plane acrossView(const CameraView& camera, double depth_m, double sign)
 {
     const glm::dvec3 normal = sign * camera.forward_ws;
@@ -113,6 +98,17 @@ Plane acrossView(const CameraView& camera, double depth_m, double sign)
 }
 
 } // namespace
+
+glm::dvec3 axisOf(const Light& light, const LightCone& cone)
+{
+    return isSun(light) ? light.direction_ws : cone.centre;
+}
+
+Plane planeOf(const glm::dvec4& row)
+{
+    const double length = glm::length(glm::dvec3(row));
+    return {glm::dvec3(row) / length, row.w / length};
+}
 
 std::span<ReceiverCone> ReceiverCones::gather(const Input& input, std::span<const ReceiverCone> held,
                                               std::span<const ReceiverHome> homes)
@@ -368,49 +364,6 @@ void ReceiverCones::measure(const Input& input)
             cone.rect.high = glm::max(cone.rect.high, q);
         }
     }
-}
-
-Slice sliceOf(const ReceiverCone& cone, const Light& light, const CameraView& camera, double blend)
-{
-    const glm::dvec3 axis = axisOf(light, cone.cone);
-    const LightSpace space = lightSpaceOf(light, axis, 0.0, camera.scene_ws);
-    const double wider = cone.joined ? 1.0 + blend : 1.0;
-    const double least = space.perspective ? kLeastHalf : std::max(camera.pad_m, kLeastHalf);
-    glm::dvec2 half = glm::max((cone.rect.high - cone.rect.low) * (0.5 * wider), glm::dvec2(least));
-    glm::dvec2 centre = (cone.rect.high + cone.rect.low) * 0.5;
-    if (space.perspective) { // a blend may end at the widest frustum
-        const glm::dvec2 low = glm::max(centre - half, glm::dvec2(-kWidestTangent));
-        const glm::dvec2 high = glm::min(centre + half, glm::dvec2(kWidestTangent));
-        centre = (low + high) * 0.5;
-        half = (high - low) * 0.5;
-    }
-    const auto row = [&](const glm::dvec3& v, double d) {
-        return glm::dvec4(v, d - glm::dot(v, space.origin_ws));
-    };
-    const glm::dvec3 along = space.perspective ? space.forward_ws : glm::dvec3(0.0);
-    const double one = space.perspective ? 0.0 : 1.0; // parallel rays are held against a constant
-    Slice slice;
-    slice.axis_ws = axis;
-    slice.sector.x = row((space.right_ws - along * centre.x) / half.x, -one * centre.x / half.x);
-    slice.sector.y = row((space.up_ws - along * centre.y) / half.y, -one * centre.y / half.y);
-    slice.sector.w = row(along, one);
-    slice.layered = true;
-    slice.rim = cone.joined ? 2.0 * blend / (1.0 + blend) : 0.0; // then it counts half at its receivers' border
-    if (space.perspective) {
-        const glm::dvec2 most = glm::abs(centre) + half;
-        slice.half_angle_rad = std::atan(std::max(most.x, most.y));
-        slice.near_share = 1.0 / std::sqrt(1.0 + glm::dot(most, most)); // all that is as far off as that
-        slice.depth.over = slice.sector.w;
-    }
-    slice.depth.axis = glm::dvec4(camera.forward_ws, -glm::dot(camera.forward_ws, camera.eye_ws));
-    slice.cut[slice.cut_count++] = depthPlane(camera, camera.near_m - camera.pad_m, true);
-    slice.cut[slice.cut_count++] = depthPlane(camera, camera.far_m + camera.pad_m, false);
-    for (const glm::dvec4& side : {slice.sector.x, -slice.sector.x, slice.sector.y, -slice.sector.y}) {
-        Plane plane = planeOf(slice.sector.w + side);
-        plane.d += camera.pad_m;
-        slice.cut[slice.cut_count++] = plane;
-    }
-    return slice;
 }
 
 } // namespace gnomon

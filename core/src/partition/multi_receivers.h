@@ -20,6 +20,9 @@ struct LightCone {
     double radius = 0.0;
 };
 
+/// Tangent of half the angle of a lamp's widest frustum, 120 degrees.
+inline constexpr double kWidestTangent = 1.7320508;
+
 /// A frustum around some receivers.
 struct ReceiverCone {
     std::uint32_t id = 0;     // of its light: the same from frame to frame
@@ -98,7 +101,9 @@ private:
     ConvexBody whole_;
 };
 
-/// The part of the world that a frustum around receivers serves: the pyramid around its rectangle, or of a sun the box.
-[[nodiscard]] Slice sliceOf(const ReceiverCone& cone, const Light& light, const CameraView& camera, double blend);
+/// The way that the maps of a cone look.
+[[nodiscard]] glm::dvec3 axisOf(const Light& light, const LightCone& cone);
+/// The plane that `row` is 0 on. Its normal is not 0.
+[[nodiscard]] Plane planeOf(const glm::dvec4& row);
 
 } // namespace gnomon
