@@ -67,7 +67,7 @@ void take(std::string_view part, std::string_view whole, scene::Casting& casting
         casting.groups = groupsOf("object", text, whole);
     } else if (key == "bias_m") {
         const std::optional<double> bias_m = toNumber(text);
-        if (!bias_m || std::abs(*bias_m) > scene::kMostBias_m) {
+        if (!bias_m || !(std::abs(*bias_m) <= scene::kMostBias_m)) {
             refuse("object", whole, "right: bias_m is a number of metres from -1e6 to 1e6");
         }
         casting.bias_m = static_cast<float>(*bias_m);

@@ -282,7 +282,7 @@ const std::vector<Setting>& rows()
          .doc = "light that blended surfaces take: coverage, or stained",
          .apply = [](Settings& s, const Value& v) { s.stained = v.text == "stained"; }},
         {.key = "object", .group = Group::picture, .type = text, .form = "NAME:KEY=VALUE,...",
-         .doc = "casts, receives, moves, bias_m, groups (0+3) of an object", .own_option = false, .repeatable = true, .separator = ";", .apply = applyObjects},
+         .doc = "NAME:KEY=VALUE,... of an object: casts, receives, moves, bias_m, groups (0+3); with ; between several objects", .own_option = false, .repeatable = true, .separator = ";", .apply = applyObjects},
         {.key = "override-material", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "none",
          .choices = [] { return std::vector<std::string_view>{"none", "diffuse"}; }, .doc = "draw everything in one material: none or diffuse",
          .subcommands = kDraw, .apply = [](Settings& s, const Value& v) { s.material_override = v.text == "none" ? "" : v.text; }},

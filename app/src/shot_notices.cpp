@@ -123,7 +123,8 @@ void noteWhatSurprises(Shot& shot, const Settings& settings)
     noteTakenLight(shot);
     noteScene(shot, settings);
     if (settings.fov_deg && shot.eye.height_m > 0.0) {
-        tellNoEffect(settings, shot.notices, "--fov has no effect on an orthographic camera, but --ortho has one");
+        tellNoEffect(settings, shot.notices,
+                     "--fov has no effect on an orthographic camera; --ortho sets how much it sees");
     }
 }
 

@@ -3,6 +3,8 @@
 // M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
 #include "taken_light.h"
 
+#include "command_text.h"
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
@@ -289,12 +291,16 @@ void noteTakenLight(Shot& shot)
         if (taker == nullptr) {
             continue;
         }
-        const std::string name = nameOf(shot, search.objectAt(taker->objects.front()));
+        const scene::Object& object = search.objectAt(taker->objects.front());
+        const std::string& node_name = shot.state.nodes[object.node].name;
+        // --set object= has nodes' names, with semicolons between several.
+        const bool can_be_set = !node_name.empty() && node_name.find(';') == std::string::npos;
+        const std::string set =
+            can_be_set ? ", or --set " + shellWord(fmt::format("object={}:casts=false", node_name)) : "";
         const std::string around = light.caster.type == LightType::directional ? "the scene" : "the lamp";
         notices.push_back(fmt::format("object \"{0}\" stands around {1} and takes all of the light of {2}; it casts "
-                                      "nothing with \"extras\": {{\"gnomon\": {{\"casts\": false}}}} in the file, or "
-                                      "--set object={0}:casts=false",
-                                      name, around, light.name));
+                                      "nothing with \"extras\": {{\"gnomon\": {{\"casts\": false}}}} in the file{3}",
+                                      nameOf(shot, object), around, light.name, set));
     }
     for (std::string& notice : notices) {
         if (std::ranges::find(shot.notices, notice) == shot.notices.end()) {

@@ -47,10 +47,10 @@ Aabb reachBox(const Light& light, const Aabb& scene_ws)
     return {glm::max(scene_ws.min, place - range), glm::min(scene_ws.max, place + range)};
 }
 
-bool isTooWideForPcss(const Light& light, const ObjectSet& objects)
+Outcome widthForPcss(const Light& light, const ObjectSet& objects)
 {
     if (light.type == LightType::directional) {
-        return light.angular_diameter_rad > kWidestPcssSun_rad;
+        return light.angular_diameter_rad > kWidestPcssSun_rad ? kTooWideSun : Outcome{};
     }
     bool reaches = false;
     const std::span<const Aabb> bounds = objects.allBounds();
@@ -59,16 +59,19 @@ bool isTooWideForPcss(const Light& light, const ObjectSet& objects)
         if (box.empty() || !objects.flags(object).receives) {
             continue;
         }
-        const glm::dvec3 nearest_ws = glm::clamp(light.position_ws, glm::dvec3(box.min), glm::dvec3(box.max));
-        const double distance_m = glm::distance(nearest_ws, light.position_ws);
-        if (light.range_m == 0.0 || distance_m <= light.range_m) {
+        const glm::dvec3 low = light.position_ws - glm::dvec3(box.min);
+        const glm::dvec3 high = glm::dvec3(box.max) - light.position_ws;
+        const double nearest_m = glm::length(glm::max(glm::max(-low, -high), glm::dvec3(0.0)));
+        // A room around the lamp may be as far from it as its corners.
+        const double distance_m = nearest_m > 0.0 ? nearest_m : glm::length(glm::max(low, high));
+        if (light.range_m == 0.0 || nearest_m <= light.range_m) {
             reaches = true;
             if (light.radius_m <= kWidestPcssLamp * distance_m) {
-                return false; // mostly one of the first
+                return {}; // mostly one of the first
             }
         }
     }
-    return reaches && light.radius_m > 0.0;
+    return reaches && light.radius_m > 0.0 ? kTooWideLamp : Outcome{};
 }
 
 } // namespace gnomon

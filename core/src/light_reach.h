@@ -19,18 +19,20 @@ namespace gnomon {
 /// Of a map that holds still: what no receiver in the scene exceeds, in steps.
 [[nodiscard]] double steadyReach(const Light& light, const LightSpace& space, const Aabb& scene_ws);
 
-/// What filter pcss takes: under wider lights the few texels of its discs miss what is close to the receiver, and no
-/// mean depth stands for what is near and far. Of a sun the diameter, a little above 25 degrees for what rounding adds;
-/// of a lamp the radius over the distance of the nearest point of the farthest receiver: 11 degrees across there.
+/// Filter pcss takes no wider lights: the few texels of its discs miss what is close to the receiver, and no mean depth
+/// stands for what is near and far. A sun's limit is its diameter, a little above 25 degrees for what rounding adds; a
+/// lamp's is its radius over the distance of the farthest receiver: 11 degrees across there.
 constexpr double kWidestPcssSun_rad = 0.43634;
 constexpr double kWidestPcssLamp = 0.1;
-inline constexpr Outcome kTooWideForPcss{
-    OutcomeKind::refused,
-    "pcss takes suns up to 25 degrees across and lamps whose radius is at most a tenth of their distance to the "
-    "farthest receiver: beyond, what is near and far has no mean depth; filter raymarch takes any"};
+inline constexpr Outcome kTooWideSun{
+    OutcomeKind::refused, "pcss takes suns up to 25 degrees across: beyond, what is near and far has no mean depth; "
+                          "filter raymarch takes any"};
+inline constexpr Outcome kTooWideLamp{
+    OutcomeKind::refused, "pcss takes lamps whose radius is at most a tenth of their distance to the farthest "
+                          "receiver: beyond, what is near and far has no mean depth; filter raymarch takes any"};
 
-/// Is the light wider than that? All receivers in its range count, in sight or not: no shadow goes as the camera turns.
-[[nodiscard]] bool isTooWideForPcss(const Light& light, const ObjectSet& objects);
+/// One of these two, or ok. All receivers in a lamp's range count, in sight or not: no shadow goes as the camera turns.
+[[nodiscard]] Outcome widthForPcss(const Light& light, const ObjectSet& objects);
 
 /// How far the rays of a light lead, and no farther than the scene.
 [[nodiscard]] Aabb reachBox(const Light& light, const Aabb& scene_ws);

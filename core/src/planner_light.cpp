@@ -147,9 +147,11 @@ Outcome Planner::Impl::prospect(const Frame& frame, std::uint32_t index, const S
                 ? "the camera sees nothing that receives shadow, and some objects are nowhere (ObjectSet::nowhere())"
                 : "the camera sees nothing that receives shadow"};
     }
-    if (setup.recipe.options.technique.filter == Filter::pcss &&
-        isTooWideForPcss(frame.lights[index], *frame.objects)) {
-        return kTooWideForPcss;
+    if (setup.recipe.options.technique.filter == Filter::pcss) {
+        const Outcome width = widthForPcss(frame.lights[index], *frame.objects);
+        if (width.kind != OutcomeKind::ok) {
+            return width;
+        }
     }
     return {};
 }

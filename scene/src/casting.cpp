@@ -18,15 +18,11 @@ Casting casting(const Casting& above, const Casting& there)
 
 void apply(const Casting& casting, Node& node)
 {
-    const bool casts = casting.casts.value_or(node.casts);
-    if (casting.casts && casts && node.groups == 0) {
-        node.groups = Node().groups;
-    }
-    node.groups = casting.groups.value_or(node.groups);
-    if (casting.casts && !casts) {
-        node.groups = 0;
-    }
-    node.casts = casts;
+    const bool was_silent = !node.casts && node.groups == 0; // by an earlier word
+    const bool is_silent = casting.casts ? !*casting.casts : was_silent;
+    const std::uint32_t groups = casting.groups.value_or(was_silent ? Node().groups : node.groups);
+    node.groups = is_silent ? 0 : groups;
+    node.casts = casting.casts.value_or(node.casts);
     node.receives = casting.receives.value_or(node.receives);
     node.dynamic = node.dynamic || casting.moves.value_or(false);
     node.bias_m = casting.bias_m.value_or(node.bias_m);

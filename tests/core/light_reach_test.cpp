@@ -151,5 +151,23 @@ TEST(WideLights, AreRefusedByPcssAlone)
     }
 }
 
+/// Its bounds are around the lamp, and say nothing of how near its walls are.
+TEST(WideLights, InARoomOfOneObjectAreJudgedByItsCorners)
+{
+    ObjectSet set;
+    set.add(test::boxAt({0, 0, 0}, {5, 3, 5}), {true, true, false});
+    Light lamp = test::spot({0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}, 0.5);
+    for (const double radius_m : {0.0, 0.001, 0.5, 0.8}) {
+        lamp.radius_m = radius_m;
+        EXPECT_EQ(widthForPcss(lamp, set).kind, OutcomeKind::ok) << radius_m;
+    }
+    lamp.radius_m = 1.0;
+    EXPECT_EQ(widthForPcss(lamp, set).kind, OutcomeKind::refused);
+    lamp.position_ws = {0.0, 100.0, 0.0};
+    lamp.range_m = 10.0; // reaches nothing
+    lamp.radius_m = 9.0;
+    EXPECT_EQ(widthForPcss(lamp, set).kind, OutcomeKind::ok);
+}
+
 } // namespace
 } // namespace gnomon

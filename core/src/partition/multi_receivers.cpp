@@ -310,12 +310,12 @@ void ReceiverCones::place(const Input& input, std::span<const ReceiverHome> home
     best.texel = best.coarsest = piece.texel;
     std::size_t in = cones_.size();
     double least = kInfinity;
-    const auto find = [&](bool enough) {
+    const auto find = [&](bool coarser) {
         for (std::size_t i = 0; i < cones_.size() && least > 0.0; ++i) {
             ReceiverCone grown = cones_[i];
             const double texels = grown.pieces > 0 ? sideOf(input, grown) * sideOf(input, grown) : 0.0;
             bool holds = grow(input, piece, grown);
-            if (enough && !grown.held) {
+            if (coarser && !grown.held) {
                 const double half = halfOf(input, grown.cone);
                 grown.texel = std::max(grown.texel, 2.0 * half / (input.largest_texels * kLargestHeld));
                 holds = half < kInfinity;

@@ -42,7 +42,7 @@ std::optional<std::uint32_t> readGroups(const JsonView& view)
         groups |= is_sound ? 1U << list[i].get<std::uint32_t>() : 0U;
     }
     if (!is_sound) {
-        ignore(view, "an array of up to 32 groups, each from 0 to 31,");
+        ignore(view, "an array of up to 32 groups, whole numbers from 0 to 31,");
         return {};
     }
     return groups;
@@ -67,7 +67,7 @@ void eachMember(const JsonView& view, const Take& take)
     for (const auto& [key, value] : ours->value().items()) {
         const JsonView member = ours->at(key);
         if (!take(key, member)) {
-            ours->context().notice(ours->pointer() + " has a member that Gnomon does not know, which was ignored");
+            ignore(member, "a member that Gnomon knows");
         }
     }
 }
