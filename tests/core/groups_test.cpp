@@ -58,7 +58,7 @@ std::vector<std::uint32_t> castersOf(const Plan& plan)
 {
     std::vector<std::uint32_t> casters = plan.casters;
     std::ranges::sort(casters);
-    casters.erase(std::ranges::unique(casters).begin(), casters.end());
+    casters.erase(std::unique(casters.begin(), casters.end()), casters.end());
     return casters;
 }
 
