@@ -2,6 +2,7 @@
 #include "draw_table.h"
 
 #include "closed_meshes.h"
+#include "host/view.h"
 
 #include <glm/matrix.hpp>
 
