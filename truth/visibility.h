@@ -103,10 +103,10 @@ struct Visibility {
 /// Holds the acceleration structure of a scene at one moment. Opaque and alpha-masked surfaces are seen and cast
 /// (masked ones where the texture's alpha, times factor and vertex colour, reaches the cutoff); blended ones are
 /// not seen, and of the light that crosses them each lets 1 - alpha (1 - colour) through, of which a mask holds the
-/// luminance. What clip planes cut away is not there. Objects that do not cast, or in none of a light's groups, are
-/// seen only. Single-sided triangles are seen from their front but cast from both sides. Objects whose transform is not
-/// finite take no part; flattened ones do. Where memory runs out, all of this throws Error of the kind out_of_memory,
-/// or std::bad_alloc.
+/// luminance. Parts that clip planes cut away are not there. Objects that do not cast, or in none of a light's groups,
+/// are seen only. Single-sided triangles are seen from their front but cast from both sides. Objects whose transform is
+/// not finite take no part; flattened ones do. Where memory runs out, all of this throws Error of the kind
+/// out_of_memory, or std::bad_alloc.
 class Tracer {
 public:
     /// `scene` and `state` must outlive the tracer and stay as they are. Builds on the calling thread, which takes

@@ -231,7 +231,7 @@ bool Search::isDark(const glm::dvec3& p, const Light& light)
     return blocks(light.position_ws, way, light.near_m / glm::length(way), 1.0);
 }
 
-/// In all directions around a lamp. Of what is under a sun in nine of ten of those that lead up, or the ground would
+/// In all directions around a lamp. Under a sun in nine of ten of those that lead up, or the ground would
 /// surround what stands on it when the sun is below.
 bool Search::surrounds(const Light& light)
 {

@@ -274,7 +274,7 @@ void Region::makeCasterPlanes(const RegionInput& input, const CasterReach& reach
 }
 
 /// A receiver that does not cast is in the map for its own shadows alone, and hides all that is behind it: as a lamp's
-/// housing would the room. Of a map that is not for what is seen alone (`whole`) any receiver may be.
+/// housing would the room. For a map that is not for what is seen alone (`whole`) any receiver may be.
 void Region::leaveOutOthers(const RegionInput& input, bool whole, std::size_t first,
                             std::vector<std::uint32_t>& casters)
 {

@@ -70,8 +70,8 @@ struct Light {
     /// Texels on a side of each of its maps: 16 .. those of its options, which are taken for what is beyond. 0: as its
     /// options say.
     std::uint32_t map_size = 0;
-    /// The groups of casters that it makes shadows of (ObjectFlags::groups): bits, all values are legal. What is in
-    /// none of them is in none of its maps. 0: nothing casts, and the light needs no map.
+    /// The groups of casters that it makes shadows of (ObjectFlags::groups): bits, all values are legal. A caster
+    /// in none of them is in none of its maps. 0: nothing casts, and the light needs no map.
     std::uint32_t groups = kAllGroups;
 
     bool operator==(const Light&) const = default;

@@ -5,7 +5,7 @@
 // Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006 (ID buffers; 0 is the ground's, the others go by
 // render order, front to back, so that objects with one id are far apart).
 // Departures: the ground is what does not cast (ObjectFlags::casts, groups), and 0 also stands for texels that nothing
-// was drawn to; such texels light everything. What "front" is, is measured along the light and not from the camera, so
+// was drawn to; such texels light everything. "Front" is measured along the light and not from the camera, so
 // that ids do not change as the camera moves, and that of two ids the lower is in front (IdTest::priority).
 #pragma once
 
@@ -53,7 +53,7 @@ struct IdScratch {
 
 /// Appends one for each object of the set: 0 of what does not cast for the light or is nowhere, then 1 .. `most` in the
 /// order of the farthest points of their boxes, by depth along a sun or by distance from a lamp: so what stands on the
-/// ground is before the ground. Of objects as far as each other the lower index is first. With IdOf::face each piece
+/// ground is before the ground. Among objects as far as each other the lower index is first. With IdOf::face each piece
 /// takes one, and what is appended is that of an object's first. Surfaces in one plane never shade each other, and a
 /// map cannot tell which is in front: objects without thickness in a plane across x, y or z share an id, and one that
 /// lies on the face of a box that it does not reach beyond has the box's (with IdOf::object). `scratch`: whatever was

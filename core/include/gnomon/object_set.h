@@ -136,7 +136,7 @@ public:
     enum class Want : std::uint8_t { casters, receivers, all };
     /// Appends, in ascending order, the index of every live object whose bounds the convex region `planes` (inward) may
     /// touch. No object inside is ever left out. `out` is not cleared. `groups`: casters of these alone, of a light's
-    /// groups say; plays no part for Want::receivers and Want::all. Who casts in no group is no caster.
+    /// groups say; plays no part for Want::receivers and Want::all. An object that casts in no group is no caster.
     void query(std::span<const Plane> planes, Want want, std::vector<std::uint32_t>& out,
                std::uint32_t groups = kAllGroups) const;
 

@@ -7,7 +7,7 @@
 
 namespace gnomon::scene::gltf {
 
-/// Of a node. What is not as docs/scenes.md has it gets a notice and says nothing: a scene is not lost by it.
+/// A node's extras. Members that are not as docs/scenes.md has them get a notice and say nothing: no scene is lost.
 [[nodiscard]] Casting readCasting(const JsonView& node);
 /// Of a light, which has `groups` alone.
 [[nodiscard]] std::optional<std::uint32_t> readLightGroups(const JsonView& light);

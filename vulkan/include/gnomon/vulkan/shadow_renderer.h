@@ -173,7 +173,7 @@ struct MapPass {
     /// is kept.
     VkColorComponentFlags colour_mask = 0;
     /// Object indices: all that must be drawn; of a map that is kept in two parts those that stand still, or those that
-    /// move. Of a filterable map these are receivers of the light's groups, too, whether or not they cast
+    /// move. In a filterable map these are receivers of the light's groups, too, whether or not they cast
     /// (ObjectFlags::casts): a host that left them out would find bright rims around shadows on them.
     std::span<const std::uint32_t> casters;
     glm::mat4 clip_from_world{1.0F}; // the view's, for vertices in world space
