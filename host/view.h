@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -27,7 +28,10 @@ struct Eye {
     double far_m = 0.0;     // 0: behind everything
 };
 /// Metres from top to bottom of the picture, at a distance before the eye.
-[[nodiscard]] double pictureHeight(const Eye& eye, double distance_m);
+[[nodiscard]] inline double pictureHeight(const Eye& eye, double distance_m)
+{
+    return eye.height_m > 0.0 ? eye.height_m : 2.0 * distance_m * std::tan(eye.fov_y_rad * 0.5);
+}
 
 /// A light as it is shaded and as it casts. Made from the scene's placed lights (lightsOf) or from the command line.
 struct ShadedLight {

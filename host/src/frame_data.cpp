@@ -64,11 +64,6 @@ void fillSky(FrameData& data, const FrameLight& light)
 
 } // namespace
 
-double pictureHeight(const Eye& eye, double distance_m)
-{
-    return eye.height_m > 0.0 ? eye.height_m : 2.0 * distance_m * std::tan(eye.fov_y_rad * 0.5);
-}
-
 Sight sightOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& bounds)
 {
     constexpr const char* kTried = "placing the camera";

@@ -3,6 +3,7 @@
 // and no preset or path gets that far.
 #include "app/shot.h"
 #include "debug_views.h"
+#include "shot_light.h"
 
 #include <cstdlib>
 
@@ -16,6 +17,16 @@ std::vector<std::string_view> debugViewNames()
 double timeOf(const Settings& /*settings*/, std::uint32_t /*frame*/)
 {
     std::abort(); // asked of a path that is followed
+}
+
+std::optional<std::size_t> lightNamed(const Shot& /*shot*/, const Settings& /*settings*/, std::string_view /*name*/)
+{
+    std::abort(); // asked of a shot that is taken
+}
+
+std::vector<std::string_view> lightNames(const Shot& /*shot*/)
+{
+    std::abort();
 }
 
 } // namespace gnomon::app
