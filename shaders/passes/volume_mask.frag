@@ -43,9 +43,9 @@ void main()
     vec3 p = positionAt(pixel, depth);
     vec3 n = kHasNormals ? octahedralDecode(texelFetch(normals, pixel, 0).rg) : normalFromDepth(pixel, depth, p);
     SmoothSurface s = kHasSmooth ? smoothDecode(texelFetch(smooth_surfaces, pixel, 0).rgb, p, n) : flatSurface(n);
-    LightPoint at = lightPoint(p, n, s, towardLight(place, p));
+    LightPoint at = lightPoint(p, n, s, towardLight(place, p), 0.0); // whose edges are those of a point
     vec2 lighten = constants.rule.moment_shape.zw;
     float shaded = lightenedVisibility(kIsInside ? 0.0 : 1.0, lighten.x, lighten.y);
     vec4 v = vec4(mix(shaded, 1.0, fadedShare(constants.screen.fade, length(p))));
-    visibility = at.faces ? v : vec4(0.0);
+    visibility = min(v, vec4(at.share));
 }

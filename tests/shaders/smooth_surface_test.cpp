@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 namespace gnomon::shared {
@@ -168,6 +170,25 @@ TEST(SmoothSurface, IsStoredLikewiseByItsUnitNormal)
     EXPECT_EQ(smoothLift({1.0, 2.0, 3.0}, {0.0, 1.0, 0.0}, none, {0.0, 0.0, 0.0}, 0.0), 0.0);
 }
 
+// The area of a disc's part over a line, beside the curve that stands for it, and a light without a size.
+TEST(ShareOverHorizon, IsTheDiscs)
+{
+    const dvec3 n(0.0, 1.0, 0.0);
+    for (const double length : {0.01, 1.0, 300.0}) {
+        for (double height = -2.0; height <= 2.0; height += 0.01) {
+            constexpr double kRadius = 0.005;
+            const dvec3 to_light = length * glm::normalize(dvec3(1.0, height * kRadius, 0.0));
+            const double t = std::clamp(glm::dot(n, to_light) / (kRadius * length), -1.0, 1.0);
+            const double area = 0.5 + (std::asin(t) + t * std::sqrt(1.0 - t * t)) / std::numbers::pi;
+            EXPECT_NEAR(shareOverHorizon(n, to_light, kRadius * length), area, 0.04) << height;
+        }
+        for (const double height : {-0.5, 0.0, 0.001, 0.0019, 0.0021, 0.004, 0.5}) {
+            const dvec3 to_light = length * glm::normalize(dvec3(1.0, height, 0.0));
+            EXPECT_EQ(shareOverHorizon(n, to_light, 0.0), height > kGrazing ? 1.0 : 0.0) << height;
+        }
+    }
+}
+
 // Bit for bit, so that nothing changes for flat meshes, nor for hosts that have no normals.
 TEST(LightPoint, OfAFlatSurfaceIsItself)
 {
@@ -176,10 +197,10 @@ TEST(LightPoint, OfAFlatSurfaceIsItself)
         const dvec3 p = triangles.direction();
         const dvec3 n = triangles.direction();
         const dvec3 to_light = 3.0 * glm::normalize(triangles.direction() - n * (i % 2 == 0 ? 0.0 : glm::dot(n, p)));
-        const LightPoint flat = lightPoint(p, n, flatSurface(n), to_light);
+        const LightPoint flat = lightPoint(p, n, flatSurface(n), to_light, 0.01);
         EXPECT_EQ(flat.p, p);
         EXPECT_EQ(flat.n, n);
-        EXPECT_EQ(flat.faces, facesDirection(n, to_light));
+        EXPECT_EQ(flat.share, shareOverHorizon(n, to_light, 0.01));
     }
 }
 
@@ -196,14 +217,14 @@ TEST(LightPoint, IsLiftedWhereOnlyTheTriangleFacesAway)
             continue;
         }
         const dvec3 to_light = triangles.direction();
-        const LightPoint light = lightPoint(at.p, at.n, s, to_light);
-        const bool triangle_faces = facesDirection(at.n, to_light);
-        EXPECT_EQ(light.faces, facesDirection(s.n, to_light));
-        dark += triangle_faces && !light.faces ? 1 : 0;
+        const LightPoint light = lightPoint(at.p, at.n, s, to_light, 0.0);
+        const bool triangle_faces = shareOverHorizon(at.n, to_light, 0.0) > 0.5;
+        EXPECT_EQ(light.share, shareOverHorizon(s.n, to_light, 0.0));
+        dark += triangle_faces && light.share < 0.5 ? 1 : 0;
         if (glm::dot(at.n, glm::normalize(to_light)) >= kHardlyFaces) {
             EXPECT_EQ(light.p, at.p);
             EXPECT_EQ(light.n, at.n);
-        } else if (light.faces) {
+        } else if (light.share > 0.5) {
             ++lifted;
             // No ray from there meets the ball.
             const dvec3 out = light.p - centre;

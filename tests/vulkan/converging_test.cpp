@@ -49,10 +49,15 @@ class Converging : public testing::TestWithParam<Partition> {
 protected:
     void TearDown() override { expectSilence(gpu()); }
 
-    /// What is not softened shows.
+    /// What is not softened shows, of lights without a size.
     std::vector<std::byte> plain(std::span<const Light> lit)
     {
-        return Watcher(scene, optionsOf(Soften::none, GetParam())).draw(lit);
+        std::vector<Light> points(lit.begin(), lit.end());
+        for (Light& light : points) {
+            light.angular_diameter_rad = 0.0;
+            light.radius_m = 0.0;
+        }
+        return Watcher(scene, optionsOf(Soften::none, GetParam())).draw(points);
     }
 
     PlannedScene scene{gpu(), kScreen};

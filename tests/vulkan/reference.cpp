@@ -338,11 +338,11 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
     for (std::size_t i = 0; i < picture.depth.size(); ++i) {
         const glm::dvec3 n = picture.normal[i];
         const glm::dvec3 p = picture.position[i];
-        const glm::dvec3 to_light =
-            light.type == LightType::directional ? -light.direction_ws : glm::normalize(light.position_ws - p);
+        turnToLight(light, rows, p, n, input);
+        const double most = shared::shareOverHorizon(n, input.toward, input.spread);
         if (n == glm::dvec3(0.0)) {
             mask.push_back(1.0);
-        } else if (!shared::facesDirection(n, to_light)) {
+        } else if (most == 0.0) {
             mask.push_back(0.0);
         } else {
             rows = rowsAt(view, p);
@@ -375,8 +375,9 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
             const bool has_fins = options.technique.filter == Filter::smoothies; // its map is read as pcf reads it
             const Filter read_by = has_fins ? Filter::pcf : options.technique.filter;
             const double filtered = shared::applyFilter(static_cast<int>(read_by), point, input);
-            mask.push_back(shared::lightenedVisibility(shared::boundedVisibility(filtered), input.moments.lighten,
-                                                       input.moments.lighten_cut));
+            mask.push_back(
+                std::min(most, shared::lightenedVisibility(shared::boundedVisibility(filtered), input.moments.lighten,
+                                                           input.moments.lighten_cut)));
         }
     }
     current_maps = {};

@@ -151,6 +151,10 @@ bool copyValues(const draco::PointAttribute& attribute, std::uint32_t points, st
 
 bool copyAs(Component component, const draco::PointAttribute& attribute, std::uint32_t points, std::span<std::byte> out)
 {
+    // Draco loads values of this type as `bool`, whatever their bytes are. No accessor of glTF holds any.
+    if (attribute.data_type() == draco::DT_BOOL) {
+        return false;
+    }
     switch (component) {
     case Component::i8:
         return copyValues<std::int8_t>(attribute, points, out);

@@ -97,7 +97,6 @@
 #define evsmNegative gnomon_evsmNegative
 #define evsmPositive gnomon_evsmPositive
 #define evsmVisibility gnomon_evsmVisibility
-#define facesDirection gnomon_facesDirection
 #define factorise gnomon_factorise
 #define fadedShare gnomon_fadedShare
 #define filterDepthId gnomon_filterDepthId
@@ -376,6 +375,7 @@
 #define shapeVisibility gnomon_shapeVisibility
 #define shareOfLogRounding gnomon_shareOfLogRounding
 #define shareOfWarpRounding gnomon_shareOfWarpRounding
+#define shareOverHorizon gnomon_shareOverHorizon
 #define sharePerCell gnomon_sharePerCell
 #define sharedDepth gnomon_sharedDepth
 #define signNotZero gnomon_signNotZero

@@ -97,7 +97,6 @@
 #undef evsmNegative
 #undef evsmPositive
 #undef evsmVisibility
-#undef facesDirection
 #undef factorise
 #undef fadedShare
 #undef filterDepthId
@@ -376,6 +375,7 @@
 #undef shapeVisibility
 #undef shareOfLogRounding
 #undef shareOfWarpRounding
+#undef shareOverHorizon
 #undef sharePerCell
 #undef sharedDepth
 #undef signNotZero

@@ -8,44 +8,49 @@
 #include "../shared/smooth_surface.h"
 GN_BEGIN
 
-// A surface faces a light when the sine of the light's height over it exceeds this (0.11 degrees). Stored normals err
-// by about 2e-4, so at zero a face that the light grazes would be lit and dark by turns, pixel by pixel.
+// The sine of the height over a surface up to which a light without a size does not reach it (0.11 degrees). Stored normals
+// err by about 2e-4, so at zero a face that the light grazes would be lit and dark by turns, pixel by pixel.
 GN_CONST real kGrazing = real(0.002);
 
-// Does a surface with normal `n` face a light in direction `to_light` (any length)?
-GN_FN bool facesDirection(real3 n, real3 to_light)
+// The share of a light's disc that is over the horizon of a surface with normal `n`: 0 to 1, within 0.04. `to_light` is of
+// any length, and `radius` is of the same scale (lightSpread()). A disc narrower than kGrazing is taken to stand lower, by
+// what it lacks.
+GN_FN real shareOverHorizon(real3 n, real3 to_light, real radius)
 {
-    return dot(n, to_light) > kGrazing * length(to_light);
+    real least = kGrazing * length(to_light);
+    real middle = max(least - radius, real(0.0));
+    real half_width = max(radius, real(1e-3) * least);
+    return smoothstep(middle - half_width, middle + half_width, dot(n, to_light));
 }
 
 // Where a surface takes its light from.
 struct LightPoint {
     real3 p;
     real3 n;    // of the plane that the surface is taken for there
-    bool faces; // the light; else its visibility is 0
+    real share; // of the light's disc that is over its horizon: the visibility is at most that
 };
 
 // Below this cosine between a triangle and the light, some three degrees, its neighbours on a smooth body rise over its
 // plane by as much as the map errs; and of a wide sun they hide a part.
 GN_CONST real kHardlyFaces = real(0.05);
 
-// Of the point `p` of a triangle with unit normal `n`, for a light in direction `to_light` (any length). Whether it
-// faces the light the smooth normal over it says, as for shading. Where that faces the light and the triangle does not,
+// Of the point `p` of a triangle with unit normal `n`, for a light of this `radius` in direction `to_light`, as for
+// shareOverHorizon(). Whether it faces the light the smooth normal over it says, as for shading. Where that faces the light and the triangle does not,
 // or hardly, light arrives at the smooth surface, whose plane no part of a convex body rises over. Where the light all
 // but grazes, the plane is leant back to where filters can follow it: the bias of a steeper one would let light through
 // whatever shades the body.
-GN_FN LightPoint lightPoint(real3 p, real3 n, SmoothSurface s, real3 to_light)
+GN_FN LightPoint lightPoint(real3 p, real3 n, SmoothSurface s, real3 to_light, real radius)
 {
     LightPoint at;
     at.p = p;
     at.n = n;
-    at.faces = facesDirection(n, to_light);
+    at.share = shareOverHorizon(n, to_light, radius);
     if (s.lift > real(0.0)) {
         real3 l = normalize(to_light);
         bool lifts = dot(n, l) < kHardlyFaces;
         at.p = lifts ? p + s.n * s.lift : p;
         at.n = lifts ? normalize(s.n + l * max(real(1.0) / kSteepest - dot(s.n, l), real(0.0))) : n;
-        at.faces = facesDirection(s.n, to_light);
+        at.share = shareOverHorizon(s.n, to_light, radius);
     }
     return at;
 }

@@ -297,7 +297,7 @@ float nextShare(inout Search s, bool is_first, Receiver r, out uint view)
 // same for each colour, which without GNOMON_TINTS is never looked at on the way.
 vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
 {
-    float seen = r.asks ? 1.0 : 0.0;
+    float seen = 1.0;
     vec3 colour = vec3(seen);
     uint view = first;
     Search s = Search(first, end, slicesAt(r.p), 1.0);
@@ -371,12 +371,13 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     if (light.views.y == 0u) {
         return vec4(1.0);
     }
-    LightPoint at = lightPoint(p, n, s, towardLight(light.place, p));
+    vec3 toward = towardLight(light.place, p);
+    LightPoint at = lightPoint(p, n, s, toward, lightSpread(light.place, toward, light.size.x));
     Receiver r;
     r.p = at.p;
     r.n = at.n;
     r.own_tint = own_tint;
-    r.asks = at.faces || GNOMON_IN_SOFTWARE || GNOMON_CONFIDENCE;
+    r.asks = at.share > 0.0 || GNOMON_IN_SOFTWARE || GNOMON_CONFIDENCE;
     r.steps = pixelSteps(GNOMON_NUMBERS.screen.eye_x, GNOMON_NUMBERS.screen.eye_y, GNOMON_NUMBERS.screen.eye_z, GNOMON_NUMBERS.screen.eye_w, w,
                          2.0 * GNOMON_NUMBERS.screen.size.zw);
     r.off_plane_m = offPlane(GNOMON_NUMBERS.screen.eye_x, GNOMON_NUMBERS.screen.eye_y, GNOMON_NUMBERS.screen.eye_z, GNOMON_NUMBERS.screen.eye_w, w,
@@ -392,14 +393,14 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     f.lifted = at.p == p ? 0.0 : 1.0;
 #endif
     float faded = fadedShare(GNOMON_NUMBERS.screen.fade, length(p));
-    faded = r.asks ? faded : 0.0; // and what does not ask is dark
     float seen = 1.0;
     vec3 colour = vec3(1.0);
     uvec2 range = light.views.xy;
     bool is_later = false;
     bool more = light.views.w > 0u;
     do { // over the positions of the sun, so that the filter is compiled once
-        vec4 here = viewsVisibility(range.x, range.x + range.y, f, r);
+        vec4 here = mix(viewsVisibility(range.x, range.x + range.y, f, r), vec4(1.0), faded);
+        here = min(here, vec4(at.share)); // filters with rays to the disc know its horizon already
         float weight = stepWeight(light.steps, pixel.x * GNOMON_NUMBERS.screen.size.z);
         seen = is_later ? steppedVisibility(seen, here.a, weight) : here.a;
         if (GNOMON_TINTS) {
@@ -409,10 +410,7 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
         range = light.views.zw;
         is_later = true;
     } while ((GNOMON_FEW_VIEWS == 0 || GNOMON_PAIRED) && more); // else few views are of one position
-    vec4 v = GNOMON_TINTS ? vec4(colour, seen) : vec4(seen);
-    v = mix(v, vec4(1.0), faded);
-    bool is_dark = (GNOMON_IN_SOFTWARE || GNOMON_CONFIDENCE) && !at.faces;
-    return is_dark ? vec4(0.0) : v;
+    return GNOMON_TINTS ? vec4(colour, seen) : vec4(seen);
 }
 
 #endif

@@ -27,7 +27,7 @@
         using real4 = glm::vec<4, real>;                                                                               \
         using glm::abs, glm::ceil, glm::clamp, glm::cross, glm::dot, glm::exp, glm::exp2, glm::floor, glm::fract,      \
             glm::inversesqrt, glm::length, glm::log, glm::log2, glm::pow, glm::max, glm::min, glm::mix,                \
-            glm::normalize, glm::sign, glm::sin, glm::cos, glm::sqrt, glm::step;
+            glm::normalize, glm::sign, glm::sin, glm::cos, glm::smoothstep, glm::sqrt, glm::step;
 #define GN_END                                                                                                         \
     }                                                                                                                  \
     }
