@@ -100,7 +100,7 @@ const std::vector<Claim>& table2005()
          .verdict = Verdict::holds,
          .quick = true,
          .why = "As published: nine comparisons, a blur over silhouettes, and the article's taps. No steps are seen. "
-                "What is left are edges that lie elsewhere."},
+                "Edges that lie elsewhere are left."},
         {.id = "2005-blur-memory",
          .claim = "Screen and blur buffers are common to all lights, so many lights take little memory",
          .commands = {"gnomon bench planes --preset plain --camera side --partition cube --point=-3,3,-2,20 --size "

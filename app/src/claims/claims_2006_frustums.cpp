@@ -154,14 +154,17 @@ const std::vector<Claim>& frustums2006()
                    {"on a meadow", "", [](const Runs& r) { return unevenness(r, 3); }, 0.0, 4.5}},
          .verdict = Verdict::partly,
          .quick = true,
-         .why = "By `multi.divide=receivers`."},
+         .why = "By `multi.divide=receivers`; towards the view `duel` of the ring its reactor has 4. The frustums of a "
+                "meadow "
+                "lie beside each other and have many sizes. A pixel takes the finest one that holds it, which another "
+                "receiver wanted."},
         {.id = "2006-unseen-sides",
          .claim = "Sides that nobody sees are never considered",
          .commands = {kUnderTheSky, kBesideTheViewer},
          .parts = {{"a lamp with nothing above it but the sky has", "sides of six",
                     [](const Runs& r) { return r.number(0, "/lights/0/view_count"); }, 1.0, 5.0},
-                   {"one beside the viewer", "sides", [](const Runs& r) { return r.number(1, "/lights/0/view_count"); },
-                    1.0, 3.0}},
+                   {"one beside the viewer", "of six",
+                    [](const Runs& r) { return r.number(1, "/lights/0/view_count"); }, 1.0, 3.0}},
          .verdict = Verdict::holds,
          .quick = true,
          .why = "Lamps that light nothing in sight have none."},

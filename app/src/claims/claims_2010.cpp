@@ -117,9 +117,8 @@ const std::vector<Claim>& table2010()
          .quick = false,
          .why = "A third, with samples twice all over the picture. No GPU was measured."},
         {.id = "2010-alternate",
-         .claim =
-             "To draw the two positions in alternate frames would be cheaper than the full blend, but for one more "
-             "target as large as the screen",
+         .claim = "To draw the two positions in alternate frames would be cheaper than the full blend, and take one "
+                  "more target as large as the screen",
          .commands = {kSunTimes},
          .parts =
              {{"a frame takes", "of the blend's",

@@ -12,7 +12,7 @@ namespace {
 
 using Runs = ClaimRuns;
 
-/// What may be done about aliasing, beside a map of which one texel is read.
+/// Each means against aliasing, beside a map of which one texel is read.
 constexpr std::string_view kPoint = "vsm+msaa=1+blur=none+map-sampling=nearest";
 constexpr std::string_view kAllMeans = "vsm+blur=none+map-sampling=anisotropic";
 constexpr std::string_view kMeans =

@@ -44,7 +44,7 @@ inline constexpr std::string_view kTimesAtCamp =
 inline constexpr std::string_view kTimesOfBox =
     "gnomon bench planes --preset plain --camera side --size 640x360 --map-size 512 --repetitions 3 --warmup 1 "
     "--techniques hard,volumes+volumes.open=skip";
-/// What filters take of a frame, all drawn anew.
+/// Times of frames of which nothing is kept.
 inline constexpr std::string_view kTimes =
     "gnomon bench spotlit --preset plain --camera stage --size 640x360 --map-size 512 --repetitions 11 --warmup 1 "
     "--techniques hard,hard+caster-faces=midpoint,pcf+pcf.kernel=7x7,vsm,esm";
