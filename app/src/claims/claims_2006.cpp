@@ -70,7 +70,7 @@ const std::vector<Claim>& projections2006()
          .verdict = Verdict::partly,
          .quick = true,
          .why = "From a unit's feet to the horizon, where a map without a warp wastes most. PSM falls back there "
-                "(2006-psm-fragile). It does not at camp with a large map, where the others save a tenth."},
+                "(2006-psm-fragile). It does not at camp with a large map, and errs more."},
         {.id = "2006-warps-and-depth",
          .claim = "They help little with depth aliasing, and some make it worse",
          .commands = {kCampOfPoint},
@@ -86,8 +86,8 @@ const std::vector<Claim>& projections2006()
                     1.0}},
          .verdict = Verdict::fails,
          .quick = true,
-         .why = "What is near has smaller texels with a warp, and a smaller texel needs less bias. Without any bias a "
-                "slope shadows itself whatever the texel's size, with each warp by a fiftieth more."},
+         .why = "Near things have smaller texels with a warp, and a smaller texel needs less bias. Without any bias a "
+                "slope shadows itself whatever the texel's size."},
         {.id = "2006-psm-fragile",
          .claim = "PSM is hard to make robust: lights and casters cross the camera's plane",
          .commands = {"gnomon plan rts --camera camp --partition single --fit psm --filter hard --json",

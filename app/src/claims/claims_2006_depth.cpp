@@ -124,8 +124,9 @@ const std::vector<Claim>& depths2006()
                    {"at map", "times it", [](const Runs& r) { return detachedByBackFaces(r, 1); }, 5.0}},
          .verdict = Verdict::holds,
          .quick = true,
-         .why = "Neither has a bias. At a unit's feet it is 4 times. Culling front faces leaves a tenth of the acne or "
-                "less, and far less light at contacts than a bias that is too high (2006-bias-high)."},
+         .why = "Neither has a bias. With `--camera unit`, at a unit's feet, it is 4 times. Culling front faces leaves "
+                "a tenth of the acne or less, and far less light at contacts than a bias that is too high "
+                "(2006-bias-high)."},
         {.id = "2006-midpoint",
          .claim = "Midpoint rendering is expensive",
          .commands = {kTimes},

@@ -178,8 +178,7 @@ const std::vector<Claim>& frustums2006()
                    {"a camera goes by, lantern 0", "of it", [](const Runs& r) { return popLeft(r, 3); }, 0.0, 0.5}},
          .verdict = Verdict::holds,
          .quick = false,
-         .why = "`multi.divide=receivers` with motion `snap`; frustums fade into others over eight frames. Our own "
-                "division has less to gain at the reactor, 0.6."},
+         .why = "`multi.divide=receivers` with motion `snap`; frustums fade into others over eight frames."},
         {.id = "2006-soft-seams",
          .claim = "Soft shadows help to hide seams between frustums; a blur on the screen is effective",
          .commands =

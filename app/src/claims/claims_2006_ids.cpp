@@ -153,8 +153,7 @@ const std::vector<Claim>& ids2006()
                    {"close to a soldier", "of it", [](const Runs& r) { return rmseOfEightBits(r, 2); }, 0.0, 1.1}},
          .verdict = Verdict::holds,
          .quick = true,
-         .why = "The automatic bias of an object knows how coarse its steps are. Beside 32 bits of depth without ids "
-                "either errs by up to a tenth more."},
+         .why = "Acne does not grow with them. An edge moves here and there."},
         {.id = "2006-smoothies",
          .claim = "Smoothies give good results",
          .commands = {kSmoothiesAtCamp, kSmoothiesClose},

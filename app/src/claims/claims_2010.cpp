@@ -115,7 +115,7 @@ const std::vector<Claim>& table2010()
                     [](const Runs& r) { return frameOver(r, "pcf+step-blend"); }, 1.2, 1.5}},
          .verdict = Verdict::holds,
          .quick = false,
-         .why = "A third, with samples twice all over the picture. No GPU was measured."},
+         .why = "Casters and samples are twice as many all over the picture. No GPU was measured."},
         {.id = "2010-alternate",
          .claim = "To draw the two positions in alternate frames would be cheaper than the full blend, and take one "
                   "more target as large as the screen",
@@ -149,9 +149,8 @@ const std::vector<Claim>& table2010()
                     0.0, 0.95}},
          .verdict = Verdict::holds,
          .quick = true,
-         .why =
-             "Colour targets, each with a depth buffer to be drawn with. Two depth maps of 16 bits take two thirds of "
-             "two in one, and are what to use."},
+         .why = "Colour targets, each with a depth buffer to be drawn with. Two depth maps of 16 bits take less "
+                "(`map-format=d16`), and are what to use."},
         {.id = "2010-two-bytes",
          .claim = "Depth fits two channels of 8 bits",
          .parts = {{"the published code errs by", "steps of 16 bits",

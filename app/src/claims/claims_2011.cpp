@@ -145,7 +145,7 @@ const std::vector<Claim>& table2011()
          .verdict = Verdict::holds,
          .quick = true,
          .why = "In the paper's layers, which are thin volumes of the world. Over a range of more than 100 m it is a "
-                "deviation of 10 m, and no unit casts a dark shadow."},
+                "deviation of 10 m, and with `vsm+min-variance=0.01` no unit casts a dark shadow."},
         {.id = "2011-bleeding-reduction",
          .claim = "Light bleeding is attenuated by cutting off low visibility, or by a power of it",
          .commands = {kCanopies},
