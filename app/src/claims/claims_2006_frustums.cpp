@@ -28,17 +28,20 @@ constexpr std::string_view kPendantOfDeck =
     "gnomon compare ring --camera deck --light \"pendant 15\" --light-size 0.02 --size 320x180 --samples 64 "
     "--repetitions 1 --warmup 0 --texels 1048576 --techniques "
     "hard+multi+multi.divide=receivers+multi.most-times=4,hard+cube";
-/// An eye that looks into a lamp far away, before which things stand; and how even texels are there.
-constexpr std::string_view kDuelAtCamp =
-    "gnomon plan rts --preset plain --eye 0,1.7,20 --target 0,1.2,-20 --point 0,3,-20,60 --filter hard --partition "
-    "multi --set multi.divide=receivers --set multi.most-times=4 --texels 1048576 --size 240x135 --json";
+/// Eyes that look into a lamp behind what stands there: before an army, and on a meadow. How even texels are there.
+constexpr glm::dvec3 kEyeBeforeArmy{27.2, 10.1, 19.2};
+constexpr glm::dvec3 kEyeOnMeadow{0.0, 1.7, 20.0};
+constexpr std::string_view kDuelBeforeArmy =
+    "gnomon plan rts --preset plain --eye 27.2,10.1,19.2 --target 24.3,10.5,-6 --point 24.3,11,-6,60 --filter hard "
+    "--partition multi --set multi.divide=receivers --set multi.most-times=4 --map-size auto --texels 1048576 --size "
+    "240x135 --json";
 constexpr std::string_view kDuelOnMeadow =
     "gnomon plan sundial --preset plain --eye 0,1.7,20 --target 0,1.2,-20 --point 0,3,-20,60 --filter hard --partition "
-    "multi --set multi.divide=receivers --set multi.most-times=4 --texels 1048576 --size 240x135 --json";
-constexpr glm::dvec3 kDuelEye{0.0, 1.7, 20.0};
-constexpr std::string_view kTexelsAtCamp =
-    "gnomon compare rts --preset plain --partition cube --map-size auto --eye 0,1.7,20 --target 0,1.2,-20 --point "
-    "0,3,-20,60 --size 240x135 --truth hard --repetitions 1 --warmup 0 --texels 1048576 --techniques "
+    "multi --set multi.divide=receivers --set multi.most-times=4 --map-size auto --texels 1048576 --size 240x135 "
+    "--json";
+constexpr std::string_view kTexelsBeforeArmy =
+    "gnomon compare rts --preset plain --partition cube --map-size auto --eye 27.2,10.1,19.2 --target 24.3,10.5,-6 "
+    "--point 24.3,11,-6,60 --size 240x135 --truth hard --repetitions 1 --warmup 0 --texels 1048576 --techniques "
     "hard+multi+multi.divide=receivers+multi.most-times=4";
 constexpr std::string_view kTexelsOnMeadow =
     "gnomon compare sundial --preset plain --partition cube --map-size auto --eye 0,1.7,20 --target 0,1.2,-20 --point "
@@ -145,19 +148,18 @@ const std::vector<Claim>& frustums2006()
                 "receivers. The table of `multi` has more lamps, and our own division."},
         {.id = "2006-few-regions",
          .claim = "A duel is solved by 3 or 4 regions at the extreme",
-         .commands = {kDuelAtCamp, kDuelOnMeadow, kTexelsAtCamp, kTexelsOnMeadow},
-         .parts = {{"at camp, frustums towards an eye that looks into a lamp", "",
-                    [](const Runs& r) { return regionsTowards(r.json(0), kDuelEye); }, 1.0, 4.0},
-                   {"on a meadow", "", [](const Runs& r) { return regionsTowards(r.json(1), kDuelEye); }, 1.0, 4.0},
-                   {"finest over coarsest hundredth at camp", "", [](const Runs& r) { return unevenness(r, 2); }, 0.0,
-                    4.5},
+         .commands = {kDuelBeforeArmy, kDuelOnMeadow, kTexelsBeforeArmy, kTexelsOnMeadow},
+         .parts = {{"frustums towards an eye that looks into a lamp behind an army", "",
+                    [](const Runs& r) { return regionsTowards(r.json(0), kEyeBeforeArmy); }, 1.0, 4.0},
+                   {"on a meadow", "", [](const Runs& r) { return regionsTowards(r.json(1), kEyeOnMeadow); }, 1.0, 4.0},
+                   {"finest over coarsest hundredth before the army", "",
+                    [](const Runs& r) { return unevenness(r, 2); }, 0.0, 4.5},
                    {"on a meadow", "", [](const Runs& r) { return unevenness(r, 3); }, 0.0, 4.5}},
          .verdict = Verdict::partly,
          .quick = true,
-         .why = "By `multi.divide=receivers`; towards the view `duel` of the ring its reactor has 4. The frustums of a "
-                "meadow "
-                "lie beside each other and have many sizes. A pixel takes the finest one that holds it, which another "
-                "receiver wanted."},
+         .why =
+             "By `multi.divide=receivers`. Frustums of a meadow lie beside each other, too. A pixel takes the finest "
+             "one that holds it, which may be another receiver's."},
         {.id = "2006-unseen-sides",
          .claim = "Sides that nobody sees are never considered",
          .commands = {kUnderTheSky, kBesideTheViewer},
