@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace gnomon::app {
@@ -79,8 +80,8 @@ double unevenness(const Runs& runs, std::size_t run)
     return runs.of(run, kTalks, "/texel_density/facing/p99") / runs.of(run, kTalks, "/texel_density/facing/p01");
 }
 
-/// How many frustums of the plan's only lamp look towards the eye, give or take 60 degrees. One is as wide as that, so
-/// there would be one if the eye did not look into the lamp.
+/// How many frustums of the plan's only lamp look towards the eye, give or take 45 degrees: into how many the side of a
+/// cube map that looks there is divided.
 double regionsTowards(const Json& plan, const glm::dvec3& eye_ws)
 {
     const auto place = plan.at("lights").at(0).at("position_ws").get<std::array<double, 3>>();
@@ -88,7 +89,7 @@ double regionsTowards(const Json& plan, const glm::dvec3& eye_ws)
     double count = 0.0;
     for (const Json& view : plan.at("views")) {
         const auto w = view.at("clip_from_world_rows").at(3).get<std::array<double, 4>>();
-        count += glm::dot(glm::normalize(glm::dvec3(w[0], w[1], w[2])), to_eye) >= 0.5 ? 1.0 : 0.0;
+        count += glm::dot(glm::normalize(glm::dvec3(w[0], w[1], w[2])), to_eye) >= std::sqrt(0.5) ? 1.0 : 0.0;
     }
     return count;
 }
@@ -157,9 +158,8 @@ const std::vector<Claim>& frustums2006()
                    {"on a meadow", "", [](const Runs& r) { return unevenness(r, 3); }, 0.0, 4.5}},
          .verdict = Verdict::partly,
          .quick = true,
-         .why =
-             "By `multi.divide=receivers`. Frustums of a meadow lie beside each other, too. A pixel takes the finest "
-             "one that holds it, which may be another receiver's."},
+         .why = "By `multi.divide=receivers`, counted on the side of a cube that looks towards the eye. A pixel takes "
+                "the finest frustum that holds it, which may be another receiver's, and sides of maps are rounded up."},
         {.id = "2006-unseen-sides",
          .claim = "Sides that nobody sees are never considered",
          .commands = {kUnderTheSky, kBesideTheViewer},
