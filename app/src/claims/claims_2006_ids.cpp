@@ -49,10 +49,10 @@ double rmseOfEightBits(const Runs& runs, std::size_t run)
     return runs.of(run, "depth-id+map-format=rg8", "/error/rmse") / runs.of(run, "depth-id", "/error/rmse");
 }
 
-/// Triangles that a technique draws beyond those of pcf.
-double extraTriangles(const Runs& runs, std::size_t run, std::string_view technique)
+/// Draws of a technique by those of pcf.
+double drawsOverPcf(const Runs& runs, std::size_t run, std::string_view technique)
 {
-    return runs.of(run, technique, "/counters/primitives") / runs.of(run, "pcf", "/counters/primitives");
+    return runs.of(run, technique, "/counters/draws") / runs.of(run, "pcf", "/counters/draws");
 }
 
 /// Of the casters that could shadow what is seen, those that are not closed or not whole.
@@ -174,14 +174,14 @@ const std::vector<Claim>& ids2006()
         {.id = "2006-smoothies-image",
          .claim = "Smoothies need geometric volumes; a variant is entirely image-based",
          .commands = {kSmoothiesAtCamp, kSmoothiesClose},
-         .parts = {{"at camp, fins draw", "times the triangles of pcf",
-                    [](const Runs& r) { return extraTriangles(r, 0, "smoothies"); }, 1.05},
+         .parts = {{"at camp, fins take", "times the draws of pcf",
+                    [](const Runs& r) { return drawsOverPcf(r, 0, "smoothies"); }, 1.05},
                    {"edges found in the map", "times those",
-                    [](const Runs& r) { return extraTriangles(r, 0, "pcf+smoothies"); }, 0.95, 1.05},
-                   {"by wide lamps, fins", "times those",
-                    [](const Runs& r) { return extraTriangles(r, 1, "smoothies"); }, 1.05},
+                    [](const Runs& r) { return drawsOverPcf(r, 0, "pcf+smoothies"); }, 0.95, 1.05},
+                   {"by wide lamps, fins", "times those", [](const Runs& r) { return drawsOverPcf(r, 1, "smoothies"); },
+                    1.05},
                    {"edges found in the map", "times those",
-                    [](const Runs& r) { return extraTriangles(r, 1, "pcf+smoothies"); }, 0.95, 1.05}},
+                    [](const Runs& r) { return drawsOverPcf(r, 1, "pcf+smoothies"); }, 0.95, 1.05}},
          .verdict = Verdict::holds,
          .quick = true,
          .why =
