@@ -17,18 +17,24 @@ constexpr std::string_view kPanOfMeadow =
     "gnomon compare sundial --preset plain --camera meadow --sun 0.4,-0.8,0.5 --path pan --frames 0-3 --fps 10000 "
     "--set "
     "path.speed=333 --size 192x108 --truth hard --map-size 1024 --techniques hard,hard+snap";
+/// A camera that pans while the scene's time goes on: under a sun that stands, and under the scene's own.
+constexpr std::string_view kPanUnderStillSun =
+    "gnomon compare sundial --preset plain --camera meadow --sun 0.4,-0.8,0.5 --time 120 --path pan --frames 0-9 --fps "
+    "10 --size 256x144 --truth hard --map-size 1024 --techniques pcf,pcf+snap";
+constexpr std::string_view kPanUnderMovingSun =
+    "gnomon compare sundial --preset plain --camera meadow --light sun --time 120 --path pan --frames 0-9 --fps 10 "
+    "--size 256x144 --truth hard --map-size 1024 --techniques pcf+snap";
 constexpr std::string_view kSunOverMeadow =
     "gnomon compare sundial --preset plain --camera meadow --light sun --time 120 --path day --frames 0-19 --fps 10 "
-    "--size 256x144 --samples 256 --map-size 1024 --techniques pcf,pcf+snap,pcf+step-jump,pcf+step-band,"
+    "--size 256x144 --samples 256 --map-size 1024 --techniques pcf,pcf+step-jump,pcf+step-band,"
     "pcf+step-blend";
-/// As the document has it: nine samples, two depths in the channels of one texture, both drawn anew in every frame.
+/// As the document has it: nine samples, two depths in the channels of one texture, nothing kept, 1280x720.
 constexpr std::string_view kSunTimes =
-    "gnomon bench --preset icefall-2010 --time 300 --path day --frames 0-9 --fps 15 --size 640x360 --set "
+    "gnomon bench --preset icefall-2010 --time 300 --path day --frames 0-19 --fps 15 --size 1280x720 --set "
     "keep-still=never --techniques pcf+snap,pcf+step-band,pcf+step-blend,pcf+step-alternate";
 constexpr std::string_view kTwoInOne =
     "gnomon compare sundial --preset plain --camera meadow --size 64x36 --truth hard --repetitions 1 --warmup 0 "
-    "--map-size 1024 --techniques pcf+map-format=d32f,pcf+step-blend+map-format=rgba8,pcf+step-blend+map-format=d16,"
-    "pcf+step-blend+map-format=d32f";
+    "--map-size 1024 --techniques pcf+step-blend+map-format=rgba8,pcf+step-blend+map-format=r32f";
 
 /// A frame by that of a single map that follows the sun.
 double frameOver(const Runs& runs, std::string_view technique)
@@ -59,11 +65,16 @@ const std::vector<Claim>& table2010()
              "and the scene's own sun, which is 2010-sun-swims."},
         {.id = "2010-sun-swims",
          .claim = "The swimming comes back as soon as the sun moves",
-         .commands = {kSunOverMeadow},
-         .parts = {{"shimmer of a snapped map", "of that of a free one",
-                    [](const Runs& r) { return r.ratio("pcf+snap", "pcf", "/stability/shimmer"); }, 0.8}},
+         .commands = {kPanUnderStillSun, kPanUnderMovingSun},
+         .parts = {{"under a sun that stands, shimmer of a snapped map", "of that of a free one",
+                    [](const Runs& r) { return r.ratio("pcf+snap", "pcf", "/stability/shimmer"); }, 0.0, 0.05},
+                   {"under one that moves", "of it",
+                    [](const Runs& r) {
+                        return r.of(1, "pcf+snap", "/stability/shimmer") / r.of(0, "pcf", "/stability/shimmer");
+                    },
+                    0.8}},
          .verdict = Verdict::holds,
-         .quick = false,
+         .quick = true,
          .why = "The map turns with the light, and no whole texels undo that."},
         {.id = "2010-jump",
          .claim = "To move the sun seldom makes a jump that is seen; to blend two positions does not",
@@ -94,54 +105,52 @@ const std::vector<Claim>& table2010()
                     [](const Runs& r) { return frameOver(r, "pcf+step-band"); }, 1.04, 1.2}},
          .verdict = Verdict::fails,
          .quick = false,
-         .why = "Nothing is kept here, as in the document: every caster is drawn twice in every frame, which is what "
-                "takes a software rasteriser its time. Where maps are kept between steps, as they are by default, a "
+         .why = "Nothing is kept here, as in the document: every caster is drawn twice in every frame, which takes a "
+                "software rasteriser a fifth of its time. Where maps are kept between steps, as they are by default, a "
                 "frame takes less than with one map."},
         {.id = "2010-blend-cost",
          .claim = "The full blend takes 13 ms more than 48 (+27 %), on the Xbox 9.5 more than 26 (+37 %)",
          .commands = {kSunTimes},
          .parts = {{"a frame takes", "times one of a map that follows the sun",
                     [](const Runs& r) { return frameOver(r, "pcf+step-blend"); }, 1.2, 1.5}},
-         .verdict = Verdict::fails,
+         .verdict = Verdict::holds,
          .quick = false,
-         .why = "As of the band, which saves samples alone."},
+         .why = "Casters and samples are twice as many all over the picture. No GPU was measured."},
         {.id = "2010-alternate",
-         .claim = "To draw the two positions in alternate frames would be cheaper than the full blend",
+         .claim = "To draw the two positions in alternate frames would be cheaper than the full blend, and take one "
+                  "more target as large as the screen",
          .commands = {kSunTimes},
-         .parts = {{"a frame takes", "of the blend's",
-                    [](const Runs& r) { return r.ratio("pcf+step-alternate", "pcf+step-blend", "/time_ms/frame"); },
-                    0.0, 0.95},
-                   {"it draws", "of the blend's triangles",
-                    [](const Runs& r) {
-                        return r.ratio("pcf+step-alternate", "pcf+step-blend", "/counters/primitives");
-                    },
-                    0.0, 0.75},
-                   {"memory", "times the blend's",
-                    [](const Runs& r) { return r.ratio("pcf+step-alternate", "pcf+step-blend", "/memory_bytes"); }, 0.0,
-                    1.0}},
-         .verdict = Verdict::partly,
+         .parts =
+             {{"a frame takes", "of the blend's",
+               [](const Runs& r) { return r.ratio("pcf+step-alternate", "pcf+step-blend", "/time_ms/frame"); }, 0.0,
+               0.95},
+              {"it draws", "of the blend's triangles",
+               [](const Runs& r) { return r.ratio("pcf+step-alternate", "pcf+step-blend", "/counters/primitives"); },
+               0.0, 0.75},
+              {"memory", "times the blend's",
+               [](const Runs& r) { return r.ratio("pcf+step-alternate", "pcf+step-blend", "/memory_bytes"); }, 1.0}},
+         .verdict = Verdict::holds,
          .quick = false,
-         .why = "It draws one map a frame instead of two. What was shown in the frame before has to be kept, as the "
-                "document says."},
+         .why = "It draws one map a frame instead of two, and keeps what was shown in the frame before."},
         {.id = "2010-two-in-one",
          .claim = "Two maps in the channels of one texture save memory",
          .commands = {kTwoInOne},
          .parts = {{"two in a texture take", "of two of 32 bits",
                     [](const Runs& r) {
-                        return r.ratio("pcf+step-blend+map-format=rgba8", "pcf+step-blend+map-format=d32f",
+                        return r.ratio("pcf+step-blend+map-format=rgba8", "pcf+step-blend+map-format=r32f",
                                        "/map/bytes");
                     },
                     0.0, 0.55},
-                   {"with all that is needed", "of two of 16 bits",
+                   {"with all that is needed", "of it",
                     [](const Runs& r) {
-                        return r.ratio("pcf+step-blend+map-format=rgba8", "pcf+step-blend+map-format=d16",
+                        return r.ratio("pcf+step-blend+map-format=rgba8", "pcf+step-blend+map-format=r32f",
                                        "/memory_bytes");
                     },
-                    0.0, 1.0}},
-         .verdict = Verdict::partly,
+                    0.0, 0.95}},
+         .verdict = Verdict::holds,
          .quick = true,
-         .why = "A colour target needs a depth buffer to be drawn with. Two plain maps of 16 bits take less, and are "
-                "what to use."},
+         .why = "Colour targets, each with a depth buffer to be drawn with. Two depth maps of 16 bits take less "
+                "(`map-format=d16`), and are what to use."},
         {.id = "2010-two-bytes",
          .claim = "Depth fits two channels of 8 bits",
          .parts = {{"the published code errs by", "steps of 16 bits",
