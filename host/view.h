@@ -24,7 +24,7 @@ struct Eye {
     glm::dvec3 up_ws{0.0, 1.0, 0.0};
     double fov_y_rad = 0.8; // vertical; (0, pi)
     double height_m = 0.0;  // above 0: orthographic, with so many metres from top to bottom, whatever fov_y_rad says
-    double near_m = 0.0;    // 0: 1/20000 of the diagonal of the scene's bounds; of an orthographic one at the position
+    double near_m = 0.0;    // 0: 1/20000 of the bounds' diagonal, or 1/100 of the way to the target; orthographic: 0
     double far_m = 0.0;     // 0: behind everything
 };
 /// Metres from top to bottom of the picture, at a distance before the eye.

@@ -8,10 +8,14 @@
 #include "scene/hash.h"
 
 #include <gnomon/choice_rules.h>
+#include <gnomon/world_range.h>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace gnomon::app {
 namespace {
@@ -83,6 +87,32 @@ void noteExtents(Shot& shot, const Settings& settings)
     }
 }
 
+/// In a wide world single precision has no room for what is small, by the rule that a whole scene is refused by. Maps
+/// and truth lose the same, so a comparison does not show it.
+void noteDistances(Shot& shot)
+{
+    constexpr float kWide_m = 1e5F; // in less, what is lost is smaller than a hand
+    const auto longest = [](const glm::vec3& v) {
+        return std::max({v.x, v.y, v.z});
+    };
+    const Aabb& all = shot.state.bounds_ws;
+    const float reach_m = all.empty() ? 0.0F : longest(glm::max(glm::abs(all.min), glm::abs(all.max)));
+    const auto lost = std::ranges::count_if(shot.state.objects, [&](const scene::Object& object) {
+        return !object.bounds_ws.empty() &&
+               longest(object.bounds_ws.extent()) < static_cast<float>(kSmallestShare) * reach_m;
+    });
+    if (reach_m < kWide_m || lost == 0) {
+        return;
+    }
+    constexpr float kMetresOfKm = 1000.0F;
+    shot.notices.push_back(fmt::format(
+        "the scene reaches {:.0f} km from the origin, where single precision has steps of {:.3g} m: shadows of {} of "
+        "its "
+        "{} objects may be lost or off by as much, in the truth too; leave out what is far, or bring it nearer",
+        reach_m / kMetresOfKm, std::nextafter(reach_m, std::numeric_limits<float>::infinity()) - reach_m, lost,
+        shot.state.objects.size()));
+}
+
 /// A result's preset makes its run again only on what it was made on.
 void noteScene(Shot& shot, const Settings& settings)
 {
@@ -120,6 +150,7 @@ void noteWhatSurprises(Shot& shot, const Settings& settings)
     noteFrames(shot, settings);
     noteSizes(shot, settings);
     noteExtents(shot, settings);
+    noteDistances(shot);
     noteTakenLight(shot);
     noteScene(shot, settings);
     if (settings.fov_deg && shot.eye.height_m > 0.0) {

@@ -199,7 +199,7 @@ Json sharedUnitsJson()
             {"texel_density", "shadow texels per screen pixel along the worse axis"},
             {"texel_density.facing", "the same, if surfaces faced eye and light; share of pixels with 1 to 4"},
             {"fit_efficiency", "texels read / texels rendered"},
-            {"eye.near_m", "metres; 0: a 20000th of the scene's diagonal"},
+            {"eye.near_m", "metres; 0: a 20000th of the scene's diagonal, or a 100th of the way to the target"},
             {"eye.far_m", "metres; 0: behind everything"},
             {"map.texels", "places in all maps: texels of the finest level, however many image layers each takes"},
             {"map.bytes", "bytes of the maps' image: all image layers and mip levels"},

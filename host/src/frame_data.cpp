@@ -90,7 +90,8 @@ Sight sightOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const A
     sight.half_y = pictureHeight(eye, 1.0) * 0.5;
     sight.half_x = sight.half_y * static_cast<double>(width) / static_cast<double>(height);
     const double diagonal = bounds.empty() ? 1.0 : glm::length(glm::dvec3(bounds.extent()));
-    const double least_m = diagonal / 20000.0;
+    // Between things far apart the diagonal says nothing of what is looked at.
+    const double least_m = std::min(diagonal / 20000.0, distance / 100.0);
     sight.near_m = eye.near_m > 0.0 || sight.orthographic ? eye.near_m : least_m;
     sight.far_m = eye.far_m;
     if (!(sight.far_m > 0.0)) {

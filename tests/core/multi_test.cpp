@@ -194,8 +194,8 @@ TEST(Multi, KeepsToALightsTexels)
     }
 }
 
-/// Forty lamps over boxes, and the texels that their maps take together.
-std::uint64_t texelsOfFortyLamps(std::uint32_t most_of_a_light)
+/// Forty lamps over boxes.
+Hall fortyLamps()
 {
     Hall hall;
     hall.set = {};
@@ -213,20 +213,104 @@ std::uint64_t texelsOfFortyLamps(std::uint32_t most_of_a_light)
     for (int i = 0; i < 40; ++i) {
         hall.addLamp({-14.0 + 4.0 * (i % 8), 2.5, -10.0 + 5.0 * (i / 8)}, 7.0);
     }
-    hall.options.max_texels = most_of_a_light;
-    hall.options.multi.texels_per_pixel = 2.0;
     hall.look({16, 10, 16}, {0, 0, 0});
-    Planner planner(hall.options);
-    return texelsOf(planner.plan(hall.frame));
+    return hall;
 }
 
-// A texel as large as a pixel is not yet fine enough: edges gain until it is half as large.
-TEST(Multi, HasUseForMoreThanATexelAPixel)
+struct Spent {
+    std::uint64_t texels = 0; // of all maps
+    double texel_px = 0.0;    // mean over the floor and the lamps that light it, of what faces lamp and eye
+};
+
+Spent spend(Hall& hall, std::uint32_t most_of_a_light)
 {
-    const std::uint64_t few = texelsOfFortyLamps(1U << 20U);
-    const std::uint64_t many = texelsOfFortyLamps(4U << 20U);
-    EXPECT_GT(few, 40U * (1U << 19U)) << "more than half of what a light may have";
-    EXPECT_GT(2 * many, 3 * few);
+    hall.options.max_texels = most_of_a_light;
+    hall.frame.lights = hall.lights;
+    hall.frame.objects = &hall.set;
+    Planner planner(hall.options);
+    const Plan& plan = planner.plan(hall.frame);
+    Spent spent{texelsOf(plan), 0.0};
+    int points = 0;
+    for (double z = -10.0; z <= 10.0; z += 1.0) {
+        for (double x = -14.0; x <= 14.0; x += 1.0) {
+            const glm::dvec3 p(x, 0.0, z);
+            for (const View& view : plan.views) {
+                if (glm::distance(p, view.light_place_ws) < 6.5 && view.slice.holds(p) && view.sector.holds(p)) {
+                    spent.texel_px += texelInPixels(hall, view, p);
+                    ++points;
+                }
+            }
+        }
+    }
+    spent.texel_px /= points;
+    return spent;
+}
+
+// A texel as large as a pixel is not yet fine enough: edges gain by what is left of a light's texels.
+TEST(Multi, SpendsTheTexelsThatAreLeft)
+{
+    Hall hall = fortyLamps();
+    const Spent few = spend(hall, 1U << 20U);
+    const Spent some = spend(hall, 2U << 20U);
+    const Spent many = spend(hall, 4U << 20U);
+    EXPECT_GT(few.texels, 40U * (1U << 19U)) << "more than half of what a light may have";
+    EXPECT_GT(2 * many.texels, 5 * few.texels);
+    EXPECT_LT(some.texel_px, 0.85 * few.texel_px);
+    EXPECT_LT(many.texel_px, 0.85 * some.texel_px);
+}
+
+// Who says how many a pixel gets so many, and no more where fewer do.
+TEST(Multi, SpendsNoMoreThanIsAskedFor)
+{
+    Hall hall = fortyLamps();
+    hall.options.multi.texels_per_pixel = 1.0;
+    const Spent asked = spend(hall, 4U << 20U);
+    EXPECT_LT(asked.texels, 40U * (1U << 20U));
+    EXPECT_EQ(spend(hall, 16U << 20U).texels, asked.texels);
+    // What has to be drawn again is not left over where drawing is bounded, and all places are to be alike by
+    // most_times.
+    hall.options.multi.texels_per_pixel.reset();
+    hall.options.draw_budget_texels = 1U << 24U;
+    EXPECT_EQ(spend(hall, 4U << 20U).texels, asked.texels);
+    hall.options.draw_budget_texels = 0;
+    hall.options.multi.most_times = 4.0;
+    EXPECT_LT(spend(hall, 4U << 20U).texels, 40U * (1U << 20U));
+}
+
+// However many texels there are: none finer than an eighth of a pixel, but for what sides are rounded by.
+TEST(Multi, LeavesWhatIsOfNoUse)
+{
+    Hall hall = fortyLamps();
+    const Spent many = spend(hall, 64U << 20U);
+    EXPECT_LT(spend(hall, 256U << 20U).texels, many.texels + many.texels / 10);
+    EXPECT_GT(many.texel_px, 1.0 / 32.0);
+}
+
+// Texels that all maps share go from one to another seldom while a camera walks.
+TEST(Multi, SharesWhatIsLeftSteadily)
+{
+    for (const Motion motion : {Motion::free, Motion::snap}) {
+        Hall hall = fortyLamps();
+        hall.options.technique.motion = motion;
+        hall.options.max_texels = 1U << 20U;
+        hall.frame.lights = hall.lights;
+        hall.frame.objects = &hall.set;
+        Planner planner(hall.options);
+        int changes = 0;
+        int views = 0;
+        std::vector<std::pair<MapId, std::uint32_t>> before;
+        for (int step = 0; step < 60; ++step) {
+            hall.look({16 - 0.02 * step, 10, 16 - 0.01 * step}, {0.01 * step, 0, 0});
+            std::vector<std::pair<MapId, std::uint32_t>> now;
+            for (const View& view : planner.plan(hall.frame).views) {
+                now.emplace_back(view.map, view.tile.width);
+                changes += step > 0 && std::ranges::find(before, now.back()) == before.end() ? 1 : 0;
+            }
+            views += static_cast<int>(now.size());
+            before = now;
+        }
+        EXPECT_LT(changes, views / 50) << nameOf(motion);
+    }
 }
 
 TEST(Multi, DrawsNothingForLampsThatStandStill)

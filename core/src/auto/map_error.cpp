@@ -12,9 +12,7 @@ namespace {
 
 /// Of texels, by which partitions and warps are ranked: finer ones gain next to nothing, pixels.
 constexpr double kFinestTexel_px = 0.5;
-/// Edges gain by still finer ones, if little. Finer than the first is more than is of use; coarser than the second is
-/// too coarse.
-constexpr double kFineEnough_px = 0.125;
+/// Coarser than this is too coarse.
 constexpr double kTooCoarse_px = 1.0 / 6.0;
 
 /// The mean of the squared sides of a texel, in pixels, as a length; infinite where the light grazes the receiver.

@@ -67,6 +67,8 @@ struct FacingTexels {
 /// Fills `scratch`.
 [[nodiscard]] FacingTexels facingTexels(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
                                         std::vector<double>& scratch);
+/// Edges gain by still finer texels, if little: finer than this is more than is of use.
+inline constexpr double kFineEnough_px = 0.125;
 /// How many times to halve the side of a map whose coarsest texel is this many pixels (> 0): 0 .. 3, to an eighth of a
 /// pixel. `before`: of the frame before, which is kept up to a sixth, for each change draws the map anew; nothing:
 /// there was none.

@@ -26,8 +26,6 @@ namespace {
 /// Shells are taken where they want so many times the texels of none, and kept up to the second.
 constexpr double kTakeShells = 0.75;
 constexpr double kKeepShells = 0.9;
-/// TexelClaim::staying of a map that holds still. With another side its texels are other ones, too.
-constexpr double kHoldsSide = 2.0;
 /// Other shells have to be the better ones for so many frames on end before what holds still is changed for them: what
 /// is known of the picture is some hundred guesses, and they jump.
 constexpr std::uint32_t kPatience_frames = 8;
@@ -94,12 +92,6 @@ int widestShell(const MultiOptions& options)
 }
 
 } // namespace
-
-std::uint32_t MultiPartition::largestSide(const Input& input)
-{
-    const std::uint32_t largest = input.recipe.resolved.largest_side();
-    return input.light.map_size != 0 ? std::clamp(input.light.map_size, kSmallestMap, largest) : largest;
-}
 
 void MultiPartition::follow(std::span<const Light> lights)
 {
@@ -245,7 +237,7 @@ double MultiPartition::predict(const Input& input, const Memory& memory, std::si
         const Prediction seen = frustums.predict({input.frame, input.recipe, input.camera, receiversOf(frustum),
                                                   receiversOf(frustum), input.light, frustum.slice, largest},
                                                  input.sight, frustum.strength);
-        const double inner = seen.facing.coarsest_px * input.recipe.options.multi.texels_per_pixel * (largest - border);
+        const double inner = seen.facing.coarsest_px * texelsPerPixel(input) * (largest - border);
         frustum.wanted = !seen.lies ? 0.0 : inner > 0.0 ? inner + border : kUnknownSide;
         frustum.sum = seen.facing.sum_px;
         frustum.size = seen.size;
@@ -363,32 +355,6 @@ void MultiPartition::listReceivers(const Input& input, GrownFrustum& frustum)
         }
     }
     frustum.receiver_count = static_cast<std::uint32_t>(receivers_.size()) - frustum.first_receiver;
-}
-
-/// Halves of halves of the largest side, which fill squares of the pages.
-void MultiPartition::sizeFrustums(const Input& input, Memory& memory, std::span<GrownFrustum> found)
-{
-    const ShadowOptions& options = input.recipe.options;
-    claims_.clear();
-    for (const GrownFrustum& frustum : found) {
-        TexelClaim& claim = claims_.emplace_back();
-        claim.weight = frustum.sum;
-        claim.wanted = frustum.wanted;
-        claim.largest = largestSide(input);
-        claim.before = frustum.side_before;
-        if (input.recipe.steady()) {
-            claim.staying = memory.held.fading() ? std::numeric_limits<double>::infinity() : kHoldsSide;
-        }
-    }
-    shares_.share(claims_,
-                  options.map_size ? std::numeric_limits<double>::infinity() : static_cast<double>(options.max_texels));
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        found[i].side = claims_[i].side;
-    }
-    memory.frustums.clear();
-    for (const GrownFrustum& frustum : found) {
-        memory.frustums.push_back({frustum.id, frustum.side, frustum.strength});
-    }
 }
 
 /// Gives each frustum texels that hold still, and adds those that fade out.

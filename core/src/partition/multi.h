@@ -87,6 +87,9 @@ private:
     };
     [[nodiscard]] static std::uint32_t largestSide(const Input& input);
     [[nodiscard]] static bool takesTurns(const Input& input) { return input.recipe.takesTurns(); }
+    [[nodiscard]] static double texelsPerPixel(const Input& input);
+    /// What is left of a light's texels once its frustums have what they want goes to them, too.
+    [[nodiscard]] static bool sharesRest(const Input& input);
     struct Range {
         std::size_t first = 0;
         std::size_t count = 0;

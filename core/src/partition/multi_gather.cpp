@@ -102,8 +102,8 @@ void MultiPartition::gather(const Input& input, Memory& memory, FrustumPlanner& 
     const double most_times = options.multi.most_times > 0.0 ? std::max(options.multi.most_times, 2.0) : 4.0;
     const double largest = innerTexels(input, largestSide(input));
     gathered_ = cones_.gather({input.light, input.camera, *input.frame.objects, input.receivers,
-                               pixelSide_m(input.frame, input.camera), options.multi.texels_per_pixel, most_times,
-                               largest, options.cascades.blend, steady},
+                               pixelSide_m(input.frame, input.camera), texelsPerPixel(input), most_times, largest,
+                               options.cascades.blend, steady},
                               memory.cones, memory.homes);
     const std::size_t first = frustums_.size();
     for (ReceiverCone& cone : gathered_) {

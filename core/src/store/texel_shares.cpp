@@ -2,15 +2,10 @@
 #include "store/texel_shares.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace gnomon {
 namespace {
-
-/// Of two that gain alike the first comes first.
-bool comesLater(const std::pair<double, std::uint32_t>& a, const std::pair<double, std::uint32_t>& b)
-{
-    return a.first != b.first ? a.first < b.first : a.second > b.second;
-}
 
 /// Texels that doubling takes.
 double costOf(const TexelClaim& claim)
@@ -20,17 +15,26 @@ double costOf(const TexelClaim& claim)
 
 } // namespace
 
-/// Enters a claim for its next doubling, if it wants one.
+/// What is wanted comes before what is of use. Of two that gain alike the first comes first.
+bool TexelShares::comesLater(const Turn& a, const Turn& b)
+{
+    return std::tuple(a.wanted, a.gain, b.claim) < std::tuple(b.wanted, b.gain, a.claim);
+}
+
+/// Enters a claim for its next doubling, if that is of use.
 void TexelShares::enter(std::span<const TexelClaim> claims, std::uint32_t claim)
 {
     const TexelClaim& one = claims[claim];
-    const bool had = one.before >= 2 * one.side;
-    if (2 * one.side > one.largest || one.wanted <= kTooSmallSide * one.side / (had ? one.staying : 1.0)) {
+    const double staying = one.before >= 2 * one.side ? one.staying : 1.0;
+    const double enough = kTooSmallSide * one.side / staying;
+    const bool wanted = one.wanted > enough;
+    if (2 * one.side > one.largest || (!wanted && one.useful <= enough)) {
         return;
     }
     constexpr double kLeastWeight = 1e-30;
-    const double gain = std::max(kLeastWeight, one.weight) * (had ? one.staying : 1.0) / (one.side * costOf(one));
-    turns_.emplace_back(gain, claim);
+    const double keeps = wanted ? staying : staying * staying * staying; // as much of a side: gains are by its cube
+    const double gain = std::max(kLeastWeight, one.weight) * keeps / (one.side * costOf(one));
+    turns_.push_back({wanted, gain, claim});
     std::ranges::push_heap(turns_, comesLater);
 }
 
@@ -48,7 +52,7 @@ void TexelShares::share(std::span<TexelClaim> claims, double texels)
     }
     while (!turns_.empty()) {
         std::ranges::pop_heap(turns_, comesLater);
-        const std::uint32_t next = turns_.back().second;
+        const std::uint32_t next = turns_.back().claim;
         turns_.pop_back();
         if (costOf(claims[next]) > texels) { // nor will it be less than that later
             continue;

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -18,7 +17,8 @@ inline constexpr double kTooSmallSide = 1.05;
 /// What one or several maps of one side ask for, and get.
 struct TexelClaim {
     double weight = 0.0;                   // > 0: the error of the picture, times the side
-    double wanted = 0.0;                   // texels on a side, beyond which nothing is gained
+    double wanted = 0.0;                   // texels on a side: all have as many before one has more
+    double useful = 0.0;                   // beyond so many nothing is gained; less than wanted: it wants no more
     std::uint32_t largest = 0;             // side that it may have at most; what it gets is this, halved some times
     std::uint32_t smallest = kSmallestMap; // and is not less than this, if that is not
     std::uint32_t maps = 1;                // of that side each
@@ -29,14 +29,20 @@ struct TexelClaim {
 
 /// The edge of a shadow is off by about a texel, so a map of side s errs by weight / s. Doubling s gains weight / 2s
 /// for 3 s^2 texels. All begin with the smallest side, and the one that gains most for its texels is doubled, until all
-/// have what they want or no texels are left. Takes n log n steps for n claims, and nothing from the heap once warm.
+/// have what they want. What is left then is shared in the same way, until more is of no use. Takes n log n steps for n
+/// claims, and nothing from the heap once warm.
 class TexelShares {
 public:
     void share(std::span<TexelClaim> claims, double texels);
 
 private:
-    /// Gain per texel of the next doubling, and whose it is.
-    using Turn = std::pair<double, std::uint32_t>;
+    /// A next doubling.
+    struct Turn {
+        bool wanted = false;     // and not just of use
+        double gain = 0.0;       // per texel
+        std::uint32_t claim = 0; // whose it is
+    };
+    [[nodiscard]] static bool comesLater(const Turn& a, const Turn& b);
     void enter(std::span<const TexelClaim> claims, std::uint32_t claim);
 
     std::vector<Turn> turns_; // a heap
