@@ -112,7 +112,7 @@ void fillLight(const Frame& frame, const Plan& plan, std::size_t index, SunShown
     if (light.sample.joined) {
         from.position_ws = light.sample.position_ws;
         from.direction_ws = light.sample.direction_ws;
-        if (!plan.options.integratesLight()) { // it shines from a place of its own, which has no size
+        if (!(*plan.options)[light.options].integratesLight()) { // it shines from a place of its own, which has no size
             from.angular_diameter_rad = 0.0;
             from.radius_m = 0.0;
         }

@@ -119,6 +119,9 @@ TEST_P(Drivers, DrawTheSame)
     ASSERT_EQ(ran.status, 0) << ran.err;
     const Folder here;
     const auto wanted = draw(one, {"software", only(reference)}, here.path(), ran);
+    if (ran.status == 1 && ran.err.find("no Vulkan driver is installed") != std::string::npos) {
+        GTEST_SKIP() << "lavapipe cannot be loaded: " << reference;
+    }
     ASSERT_EQ(ran.status, 0) << ran.err;
     ASSERT_FALSE(wanted.empty());
     ASSERT_EQ(drawn.size(), wanted.size());
@@ -157,7 +160,11 @@ TEST(BeyondEdges, CountsWhatNoEdgeExplains)
 
 std::vector<DriverCase> cases()
 {
-    const std::string small = "--mask --size 160x90 --map-size 256 ";
+    // A side of the box is edge-on to the scene's own sun, and the last bits of its normal say how much of that is over
+    // its horizon.
+    const std::string sun = "--sun 1,-2,0.5 ";
+    const std::string tiny = "--mask --size 160x90 --map-size 256 ";
+    const std::string small = tiny + sun;
     std::vector<DriverCase> all;
     const auto add = [&](const std::string& name, const std::string& scene, const std::string& options,
                          std::size_t beyond = 0) {
@@ -166,7 +173,7 @@ std::vector<DriverCase> cases()
     for (const char* filter : {"hard", "pcf", "vsm", "lvsm", "esm", "evsm", "msm", "id", "depth-id", "smoothies"}) {
         add(std::string("filter_") + filter, "planes", small + "--technique " + filter + "+uniform+single");
     }
-    add("filter_volumes", "planes", "--mask --size 160x90 --technique volumes --set volumes.open=skip");
+    add("filter_volumes", "planes", "--mask --size 160x90 " + sun + "--technique volumes --set volumes.open=skip");
     // A texel of the map is no larger than a few pixels: its edges, too, may be drawn otherwise.
     const std::pair<const char*, const char*> sizes[] = {{"160x90", "256"}, {"320x180", "512"}, {"640x360", "1024"}};
     for (const auto& [size, map] : sizes) {
@@ -175,9 +182,9 @@ std::vector<DriverCase> cases()
             const std::string options =
                 std::string("--mask --map-size ") + map + " --size " + size + " --technique " + filter + "+";
             const std::string lamp = " --point 0,4,0,30 --light-size 0.3";
-            add(name + "_single", "planes", options + "uniform+single");
-            add(name + "_lispsm", "planes", options + "lispsm+single");
-            add(name + "_cascades", "planes", options + "cascades");
+            add(name + "_single", "planes", options + "uniform+single " + sun);
+            add(name + "_lispsm", "planes", options + "lispsm+single " + sun);
+            add(name + "_cascades", "planes", options + "cascades " + sun);
             add(name + "_cube", "planes", options + "cube" + lamp);
             add(name + "_spot", "spotlit", options + "single", 25);
             add(name + "_canopies", "canopies", options + "single", 25);
@@ -191,22 +198,20 @@ std::vector<DriverCase> cases()
         add(std::string("partition_") + partition, "planes", small + "--technique pcf+" + partition);
     }
     for (const char* partition : {"cube", "paraboloid", "multi"}) {
-        add(std::string("lamp_") + partition, "planes", small + "--point 0,4,0,30 --technique pcf+" + partition);
+        add(std::string("lamp_") + partition, "planes", tiny + "--point 0,4,0,30 --technique pcf+" + partition);
     }
     add("cascades_layered", "planes", small + "--technique pcf+cascades --set cascades.pass=layered");
     add("cascades_evsm", "planes", small + "--technique evsm+cascades");
-    add("spot_msm", "spotlit", small + "--technique msm", 25);
+    add("spot_msm", "spotlit", tiny + "--technique msm", 25);
     for (const char* soften : {"blur", "smoothies", "converge"}) {
         add(std::string("soften_") + soften, "planes", small + "--technique hard+single --soften " + soften);
     }
-    // Without --sun a side of the box is edge-on to the sun, and the last bit of its normal says which of the sun's
-    // points see it.
-    add("converge_frames", "planes",
-        small + "--technique hard+single --soften converge --frames 0-7 --path pan --sun 1,-2,0.5");
+    add("converge_frames", "planes", small + "--technique hard+single --soften converge --frames 0-7 --path pan");
     for (const char* motion : {"snap", "step-jump", "step-band", "step-blend", "step-alternate"}) {
-        const std::string path = motion == std::string("snap") ? " --path pan" : " --fps 0.5 --path day";
+        const bool snaps = motion == std::string("snap");
+        const std::string path = snaps ? " --path pan" : " --fps 0.5 --path day";
         add(std::string("motion_") + motion, "planes",
-            small + "--technique pcf+single+" + motion + " --frames 0-7" + path);
+            (snaps ? small : tiny) + "--technique pcf+single+" + motion + " --frames 0-7" + path);
     }
     for (const char* format : {"d16", "d24", "r32f", "rg16", "rgba8"}) {
         add(std::string("format_") + format, "planes", small + "--technique pcf+single --map-format " + format);

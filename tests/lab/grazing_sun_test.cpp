@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mask of a ground that the sun all but grazes, beside the truth: a part of the sun's disc is below the horizon there.
+// The mask of a ground that the sun all but grazes, beside the truth: a part of the sun's disc is below the horizon.
 #include "box_scene.h"
 #include "stage.h"
 

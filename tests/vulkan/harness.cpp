@@ -357,8 +357,10 @@ void Gpu::replaceImage(const TestImage& old, TestImage& image)
 VkDescriptorSet Gpu::makeTextureSet(VkDescriptorSetLayout layout, VkImageView view)
 {
     if (texture_pool_ == VK_NULL_HANDLE) {
-        const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8};
-        const VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO, nullptr, 0, 8, 1, &size};
+        constexpr std::uint32_t kSets = 256; // for all tests of a process
+        const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kSets};
+        const VkDescriptorPoolCreateInfo pool{
+            VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO, nullptr, 0, kSets, 1, &size};
         require(vkCreateDescriptorPool(device_, &pool, nullptr, &texture_pool_), "vkCreateDescriptorPool");
         const VkSamplerCreateInfo sampler{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
         require(vkCreateSampler(device_, &sampler, nullptr, &sampler_), "vkCreateSampler");
