@@ -130,6 +130,7 @@ void addLights(scene::Scene& scene)
 {
     scene.lights.resize(kLights);
     scene.lights[kSun].intensity = 3.0F;
+    scene.lights[kSun].angular_diameter_rad = 0.0F; // as the truth takes it, which looks at centres
     scene.lights[kSpot] = {.type = scene::LightType::spot, .intensity = 300.0F, .range_m = 30.0F};
     scene.lights[kPoint] = {.type = scene::LightType::point, .intensity = 200.0F, .range_m = 30.0F};
     const std::array<glm::vec3, kLights> places{{{0, 9, 0}, {1, 8, 2}, {-0.6F, 5.0F, 1.4F}}};

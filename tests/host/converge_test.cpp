@@ -50,6 +50,9 @@ protected:
         const scene::State state = scene::evaluate(scene_, time_s);
         ShadedLight light = lightsOf(scene_, state).front();
         light.caster.groups = groups;
+        if (&renderer == &plain_) { // whose masks are of shadow and light, and of nothing between
+            light.caster.angular_diameter_rad = 0.0;
+        }
         renderer.draw(state, smallEye(), {light});
         return renderer.read({.colour = false, .masks = true}).masks.front();
     }

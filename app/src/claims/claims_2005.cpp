@@ -59,10 +59,10 @@ const std::vector<Claim>& table2005()
         {.id = "2005-pcf-smooth",
          .claim = "Nine comparisons averaged smooth jagged edges",
          .commands = {kHard512, kHard4096,
-                      "gnomon render spotlit --preset plain --camera stage --light gear --mask --filter pcf --set "
-                      "pcf.kernel=3x3-box --map-size 512 --size 320x180 -o box_512.png",
-                      "gnomon render spotlit --preset plain --camera stage --light gear --mask --filter pcf --set "
-                      "pcf.kernel=3x3-box --map-size 4096 --size 320x180 -o box_4096.png",
+                      ("gnomon render spotlit --preset plain --camera stage --light gear --mask --filter pcf --set "
+                       "pcf.kernel=3x3-box --map-size 512 --size 320x180 -o box_512.png"),
+                      ("gnomon render spotlit --preset plain --camera stage --light gear --mask --filter pcf --set "
+                       "pcf.kernel=3x3-box --map-size 4096 --size 320x180 -o box_4096.png"),
                       kCoarseAndFine, "gnomon metrics box_512.png box_4096.png --json"},
          .parts = {{"what coarse texels change, rmse,", "of what they change of hard shadows",
                     [](const Runs& r) { return apart(r, 5, 4); }, 0.0, 0.25}},
@@ -91,9 +91,9 @@ const std::vector<Claim>& table2005()
         {.id = "2005-blur-edges",
          .claim = "Blurring the mask in screen space removes the aliasing of edges",
          .commands = {kHard512, kHard4096, kBlurred,
-                      "gnomon render spotlit --preset plain --camera stage --light gear --mask --filter pcf --set "
-                      "pcf.kernel=3x3-projected --soften blur --set soften.edges=plain --set soften.taps=published "
-                      "--map-size 4096 --size 320x180 -o blur_4096.png",
+                      ("gnomon render spotlit --preset plain --camera stage --light gear --mask --filter pcf --set "
+                       "pcf.kernel=3x3-projected --soften blur --set soften.edges=plain --set soften.taps=published "
+                       "--map-size 4096 --size 320x180 -o blur_4096.png"),
                       kCoarseAndFine, "gnomon metrics blur_512.png blur_4096.png --json"},
          .parts = {{"what coarse texels change, rmse,", "of what they change of hard shadows",
                     [](const Runs& r) { return apart(r, 5, 4); }, 0.0, 0.25}},
@@ -103,14 +103,14 @@ const std::vector<Claim>& table2005()
                 "Edges that lie elsewhere are left."},
         {.id = "2005-blur-memory",
          .claim = "Screen and blur buffers are common to all lights, so many lights take little memory",
-         .commands = {"gnomon bench planes --preset plain --camera side --partition cube --point=-3,3,-2,20 --size "
-                      "160x90 --map-size 64 --repetitions 1 --warmup 0 --techniques hard+blur",
-                      "gnomon bench planes --preset plain --camera side --partition cube "
-                      "--point=-3,3,-2,20,-1,3,-2,20,1,3,-2,20 --size 160x90 --map-size 64 --repetitions 1 --warmup 0 "
-                      "--techniques hard+blur",
-                      "gnomon bench planes --preset plain --camera side --partition cube "
-                      "--point=-3,3,-2,20,-1,3,-2,20,1,3,-2,20,3,3,-2,20,-3,3,1,20,-1,3,1,20,1,3,1,20,3,3,1,20 --size "
-                      "160x90 --map-size 64 --repetitions 1 --warmup 0 --techniques hard+blur"},
+         .commands = {("gnomon bench planes --preset plain --camera side --partition cube --point=-3,3,-2,20 --size "
+                       "160x90 --map-size 64 --repetitions 1 --warmup 0 --techniques hard+blur"),
+                      ("gnomon bench planes --preset plain --camera side --partition cube "
+                       "--point=-3,3,-2,20,-1,3,-2,20,1,3,-2,20 --size 160x90 --map-size 64 --repetitions 1 --warmup 0 "
+                       "--techniques hard+blur"),
+                      ("gnomon bench planes --preset plain --camera side --partition cube "
+                       "--point=-3,3,-2,20,-1,3,-2,20,1,3,-2,20,3,3,-2,20,-3,3,1,20,-1,3,1,20,1,3,1,20,3,3,1,20 --size "
+                       "160x90 --map-size 64 --repetitions 1 --warmup 0 --techniques hard+blur")},
          .parts = {{"the blur's image for eight lamps is", "times that for three",
                     [](const Runs& r) { return byRun(r, 2, 1, kScreenBlur); }, 0.0, 1.1},
                    {"that for three is", "times that for one",
@@ -133,11 +133,11 @@ const std::vector<Claim>& table2005()
         {.id = "2005-blur-half",
          .claim = "Smaller blur buffers cut that, for little quality",
          .commands = {kSoftenedTimes, kBlurred,
-                      "gnomon render spotlit --preset plain --camera stage --light gear --mask --filter pcf --set "
-                      "pcf.kernel=3x3-projected --soften none --map-size 512 --size 320x180 -o unblurred.png",
-                      "gnomon render spotlit --preset plain --camera stage --light gear --mask --filter pcf --set "
-                      "pcf.kernel=3x3-projected --soften blur --set soften.edges=plain --set soften.taps=published "
-                      "--set soften.size=half --map-size 512 --size 320x180 -o half.png",
+                      ("gnomon render spotlit --preset plain --camera stage --light gear --mask --filter pcf --set "
+                       "pcf.kernel=3x3-projected --soften none --map-size 512 --size 320x180 -o unblurred.png"),
+                      ("gnomon render spotlit --preset plain --camera stage --light gear --mask --filter pcf --set "
+                       "pcf.kernel=3x3-projected --soften blur --set soften.edges=plain --set soften.taps=published "
+                       "--set soften.size=half --map-size 512 --size 320x180 -o half.png"),
                       "gnomon metrics half.png blur_512.png --json",
                       "gnomon metrics unblurred.png blur_512.png --json"},
          .parts = {{"half the size takes", "of the blur's time",
@@ -152,17 +152,17 @@ const std::vector<Claim>& table2005()
          .why = "A quarter of the pixels, and reading them back by depth and normal."},
         {.id = "2005-blur-volumes",
          .claim = "The blur works on shadow volumes too",
-         .commands = {"gnomon render planes --preset plain --camera side --mask --filter volumes --set "
-                      "volumes.open=skip --size 320x180 -o volumes.png",
-                      "gnomon render planes --preset plain --camera side --mask --filter volumes --set "
-                      "volumes.open=skip --soften blur --set soften.edges=plain --set soften.taps=published --size "
-                      "320x180 -o volumes_blur.png",
-                      "gnomon render planes --preset plain --camera side --mask --filter hard --map-size 4096 --size "
-                      "320x180 -o map.png",
-                      "gnomon render planes --preset plain --camera side --mask --filter hard --map-size 4096 --soften "
-                      "blur --set soften.edges=plain --set soften.taps=published --size 320x180 -o map_blur.png",
-                      "gnomon metrics volumes_blur.png volumes.png --json",
-                      "gnomon metrics map_blur.png map.png --json"},
+         .commands =
+             {("gnomon render planes --preset plain --camera side --mask --filter volumes --set "
+               "volumes.open=skip --size 320x180 -o volumes.png"),
+              ("gnomon render planes --preset plain --camera side --mask --filter volumes --set "
+               "volumes.open=skip --soften blur --set soften.edges=plain --set soften.taps=published --size "
+               "320x180 -o volumes_blur.png"),
+              ("gnomon render planes --preset plain --camera side --mask --filter hard --map-size 4096 --size "
+               "320x180 -o map.png"),
+              ("gnomon render planes --preset plain --camera side --mask --filter hard --map-size 4096 --soften "
+               "blur --set soften.edges=plain --set soften.taps=published --size 320x180 -o map_blur.png"),
+              "gnomon metrics volumes_blur.png volumes.png --json", "gnomon metrics map_blur.png map.png --json"},
          .parts = {{"it changes the mask of volumes, rmse, by", "times what it changes that of a map",
                     [](const Runs& r) { return apart(r, 4, 5); }, 0.8, 1.25}},
          .verdict = Verdict::holds,

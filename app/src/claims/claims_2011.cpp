@@ -133,8 +133,8 @@ const std::vector<Claim>& table2011()
          .why = "No bias, blur or samples helped. It is a hundredth of the paper's value."},
         {.id = "2011-published-variance",
          .claim = "0.01 is such a value",
-         .commands = {"gnomon compare --preset rts-2011 --camera camp --set lighten=0 --size 320x180 --samples 64 "
-                      "--repetitions 1 --warmup 0 --techniques lvsm+bias=none,lvsm+bias=none+min-variance=0"},
+         .commands = {("gnomon compare --preset rts-2011 --camera camp --set lighten=0 --size 320x180 --samples 64 "
+                       "--repetitions 1 --warmup 0 --techniques lvsm+bias=none,lvsm+bias=none+min-variance=0")},
          .parts =
              {{"acne", "of that without",
                [](const Runs& r) { return r.ratio("lvsm+bias=none", "lvsm+bias=none+min-variance=0", "/error/acne"); },
@@ -252,8 +252,8 @@ const std::vector<Claim>& table2011()
                 "`bloom.threshold` 0.3, as in the preset; at 0.8 bloom could not be seen."},
         {.id = "2011-4096",
          .claim = "There are situations in which even a map of 4096 texels is too small",
-         .commands = {"gnomon compare rts --preset plain --camera unit --size 320x180 --truth hard --repetitions 1 "
-                      "--warmup 0 --techniques hard+map-size=4096,hard+map-size=1024"},
+         .commands = {("gnomon compare rts --preset plain --camera unit --size 320x180 --truth hard --repetitions 1 "
+                       "--warmup 0 --techniques hard+map-size=4096,hard+map-size=1024")},
          .parts = {{"texels a pixel, in the median,", "",
                     [](const Runs& r) { return r.of("hard+map-size=4096", "/texel_density/p50"); }, 0.0, 1.0}},
          .verdict = Verdict::holds,
@@ -261,8 +261,8 @@ const std::vector<Claim>& table2011()
          .why = "One map from a unit's feet to the horizon; 320x180 pixels were too many for it."},
         {.id = "2011-larger-maps",
          .claim = "Larger maps make shadows better, and cost memory",
-         .commands = {"gnomon compare rts --preset plain --camera unit --size 320x180 --truth hard --repetitions 1 "
-                      "--warmup 0 --techniques hard+map-size=4096,hard+map-size=1024"},
+         .commands = {("gnomon compare rts --preset plain --camera unit --size 320x180 --truth hard --repetitions 1 "
+                       "--warmup 0 --techniques hard+map-size=4096,hard+map-size=1024")},
          .parts = {{"rmse of a map of 4096", "of one of 1024",
                     [](const Runs& r) { return r.ratio("hard+map-size=4096", "hard+map-size=1024", "/error/rmse"); },
                     0.0, 0.8},
@@ -302,8 +302,8 @@ const std::vector<Claim>& table2011()
                 "caster, and at camp there are 833."},
         {.id = "2011-world-layers",
          .claim = "Two layers are to be volumes of the world, with a least variance of 0.01",
-         .commands = {"gnomon compare --preset rts-2011 --camera camp --set lighten=0 --size 320x180 --samples 64 "
-                      "--repetitions 1 --warmup 0 --techniques lvsm,lvsm+lvsm.placement=gaps"},
+         .commands = {("gnomon compare --preset rts-2011 --camera camp --set lighten=0 --size 320x180 --samples 64 "
+                       "--repetitions 1 --warmup 0 --techniques lvsm,lvsm+lvsm.placement=gaps")},
          .parts = {{"rmse", "of that of layers found in gaps",
                     [](const Runs& r) { return r.ratio("lvsm", "lvsm+lvsm.placement=gaps", "/error/rmse"); }, 0.0,
                     0.85},
@@ -316,16 +316,17 @@ const std::vector<Claim>& table2011()
                 "(2011-published-variance)."},
         {.id = "2011-animated",
          .claim = "All geometry casts soft shadows, units with an animation system too",
-         .commands = {"gnomon render --preset rts-2011 --camera giant --time 0.5 --set lighten=0 --mask --size 320x180 "
-                      "-o giant.png",
-                      "gnomon render --preset rts-2011 --camera giant --time 0.5 --set lighten=0 --mask --size 320x180 "
-                      "--set object=giant/skin:casts=false -o no_giant.png",
-                      "gnomon render --preset rts-2011 --camera giant --time 0.5 --mask --size 320x180 --truth area "
-                      "--samples 64 -o giant_truth.png",
-                      "gnomon render --preset rts-2011 --camera giant --time 0.5 --mask --size 320x180 --truth area "
-                      "--samples 64 --set object=giant/skin:casts=false -o no_giant_truth.png",
-                      "gnomon metrics giant.png no_giant.png --json",
-                      "gnomon metrics giant_truth.png no_giant_truth.png --json"},
+         .commands =
+             {("gnomon render --preset rts-2011 --camera giant --time 0.5 --set lighten=0 --mask --size 320x180 "
+               "-o giant.png"),
+              ("gnomon render --preset rts-2011 --camera giant --time 0.5 --set lighten=0 --mask --size 320x180 "
+               "--set object=giant/skin:casts=false -o no_giant.png"),
+              ("gnomon render --preset rts-2011 --camera giant --time 0.5 --mask --size 320x180 --truth area "
+               "--samples 64 -o giant_truth.png"),
+              ("gnomon render --preset rts-2011 --camera giant --time 0.5 --mask --size 320x180 --truth area "
+               "--samples 64 --set object=giant/skin:casts=false -o no_giant_truth.png"),
+              "gnomon metrics giant.png no_giant.png --json",
+              "gnomon metrics giant_truth.png no_giant_truth.png --json"},
          .parts = {{"the one unit with a skin, half a second into its walk, changes the mask, rmse, by",
                     "of what it changes of the truth",
                     [](const Runs& r) { return r.number(4, "/error/rmse") / r.number(5, "/error/rmse"); }, 0.5, 1.5}},
@@ -334,12 +335,12 @@ const std::vector<Claim>& table2011()
          .why = "His vertices are made anew in each frame."},
         {.id = "2011-matrices-once",
          .claim = "The light's matrices need making only once, when a map is loaded",
-         .commands = {"gnomon compare planes --preset plain --camera side --path pan --frames 0-5 --size 192x108 "
-                      "--truth hard --map-size 512 --techniques hard,hard+scene",
-                      "gnomon compare rts --preset plain --camera map --size 320x180 --truth hard --repetitions 1 "
-                      "--warmup 0 --map-size 1024 --techniques hard,hard+scene",
-                      "gnomon compare rts --preset plain --camera camp --size 320x180 --truth hard --repetitions 1 "
-                      "--warmup 0 --map-size 1024 --techniques hard,hard+scene"},
+         .commands = {("gnomon compare planes --preset plain --camera side --path pan --frames 0-5 --size 192x108 "
+                       "--truth hard --map-size 512 --techniques hard,hard+scene"),
+                      ("gnomon compare rts --preset plain --camera map --size 320x180 --truth hard --repetitions 1 "
+                       "--warmup 0 --map-size 1024 --techniques hard,hard+scene"),
+                      ("gnomon compare rts --preset plain --camera camp --size 320x180 --truth hard --repetitions 1 "
+                       "--warmup 0 --map-size 1024 --techniques hard,hard+scene")},
          .parts = {{"shimmer while the camera pans", "of that of a map that follows it",
                     [](const Runs& r) { return r.ratio("hard+scene", "hard", "/stability/shimmer"); }, 0.0, 0.05},
                    {"at map, rmse", "times its",
@@ -355,9 +356,9 @@ const std::vector<Claim>& table2011()
         {.id = "2011-volumes-accurate",
          .claim = "Shadow volumes are extremely accurate, regardless of the distance from caster to receiver",
          .commands = {kBox,
-                      "gnomon compare planes --preset plain --camera side --sun=0.3,-0.5,1 --size 320x180 --truth "
-                      "hard --repetitions 1 --warmup 0 --map-size 512 --techniques "
-                      "hard,volumes+volumes.open=skip"},
+                      ("gnomon compare planes --preset plain --camera side --sun=0.3,-0.5,1 --size 320x180 --truth "
+                       "hard --repetitions 1 --warmup 0 --map-size 512 --techniques "
+                       "hard,volumes+volumes.open=skip")},
          .parts = {{"rmse", "of that of a map of 512",
                     [](const Runs& r) { return r.ratio("volumes+volumes.open=skip", "hard", "/error/rmse"); }, 0.0,
                     0.5},
