@@ -87,11 +87,11 @@ void noteExtents(Shot& shot, const Settings& settings)
     }
 }
 
-/// In a wide world single precision has no room for what is small, by the rule that a whole scene is refused by. Maps
+/// In a wide world single precision has no room for what is small, by kSmallestShare, as of a whole scene. Maps
 /// and truth lose the same, so a comparison does not show it.
 void noteDistances(Shot& shot)
 {
-    constexpr float kWide_m = 1e5F; // in less, what is lost is smaller than a hand
+    constexpr float kWide_m = 1e5F; // in less, a step is below 8 mm
     const auto longest = [](const glm::vec3& v) {
         return std::max({v.x, v.y, v.z});
     };

@@ -259,7 +259,7 @@ TEST(Multi, SpendsTheTexelsThatAreLeft)
     EXPECT_LT(many.texel_px, 0.85 * some.texel_px);
 }
 
-// Who says how many a pixel gets so many, and no more where fewer do.
+// A host that says how many a pixel gets has so many, and no more where fewer do.
 TEST(Multi, SpendsNoMoreThanIsAskedFor)
 {
     Hall hall = fortyLamps();
@@ -267,17 +267,23 @@ TEST(Multi, SpendsNoMoreThanIsAskedFor)
     const Spent asked = spend(hall, 4U << 20U);
     EXPECT_LT(asked.texels, 40U * (1U << 20U));
     EXPECT_EQ(spend(hall, 16U << 20U).texels, asked.texels);
-    // What has to be drawn again is not left over where drawing is bounded, and all places are to be alike by
-    // most_times.
+    // Nothing is left over where drawing is bounded, for it would be drawn again, nor where a map's size is given. By
+    // most_times all places are alike.
     hall.options.multi.texels_per_pixel.reset();
     hall.options.draw_budget_texels = 1U << 24U;
     EXPECT_EQ(spend(hall, 4U << 20U).texels, asked.texels);
     hall.options.draw_budget_texels = 0;
+    hall.options.map_size = 1024;
+    const std::uint64_t sized = spend(hall, 4U << 20U).texels;
+    hall.options.multi.texels_per_pixel = 1.0;
+    EXPECT_EQ(spend(hall, 4U << 20U).texels, sized);
+    hall.options.multi.texels_per_pixel.reset();
+    hall.options.map_size.reset();
     hall.options.multi.most_times = 4.0;
     EXPECT_LT(spend(hall, 4U << 20U).texels, 40U * (1U << 20U));
 }
 
-// However many texels there are: none finer than an eighth of a pixel, but for what sides are rounded by.
+// However many texels there are, none is finer than an eighth of a pixel, give or take the rounding of sides.
 TEST(Multi, LeavesWhatIsOfNoUse)
 {
     Hall hall = fortyLamps();

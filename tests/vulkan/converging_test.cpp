@@ -49,7 +49,7 @@ class Converging : public testing::TestWithParam<Partition> {
 protected:
     void TearDown() override { expectSilence(gpu()); }
 
-    /// What is not softened shows, of lights without a size.
+    /// Shown without softening, of lights without a size.
     std::vector<std::byte> plain(std::span<const Light> lit)
     {
         std::vector<Light> points(lit.begin(), lit.end());

@@ -30,7 +30,8 @@ bool MultiPartition::sharesRest(const Input& input)
 {
     const MultiOptions& multi = input.recipe.options.multi;
     const bool bounded_times = multi.divide == MultiDivide::receivers || multi.most_times > 0.0;
-    return !multi.texels_per_pixel && !bounded_times && !takesTurns(input);
+    const bool bounded_texels = !input.recipe.options.map_size; // else a light may have any number, and none is left
+    return bounded_texels && !multi.texels_per_pixel && !bounded_times && !takesTurns(input);
 }
 
 /// Halves of halves of the largest side, which fill squares of the pages.
