@@ -88,7 +88,7 @@ private:
     [[nodiscard]] static std::uint32_t largestSide(const Input& input);
     [[nodiscard]] static bool takesTurns(const Input& input) { return input.recipe.takesTurns(); }
     [[nodiscard]] static double texelsPerPixel(const Input& input);
-    /// What is left of a light's texels once its frustums have what they want goes to them, too.
+    /// The rest of a light's texels goes to its frustums, too, once they have what they want.
     [[nodiscard]] static bool sharesRest(const Input& input);
     struct Range {
         std::size_t first = 0;

@@ -15,7 +15,7 @@ double costOf(const TexelClaim& claim)
 
 } // namespace
 
-/// What is wanted comes before what is of use. Of two that gain alike the first comes first.
+/// A want comes before a use. Among two that gain alike the first comes first.
 bool TexelShares::comesLater(const Turn& a, const Turn& b)
 {
     return std::tuple(a.wanted, a.gain, b.claim) < std::tuple(b.wanted, b.gain, a.claim);

@@ -29,7 +29,7 @@ struct TexelClaim {
 
 /// The edge of a shadow is off by about a texel, so a map of side s errs by weight / s. Doubling s gains weight / 2s
 /// for 3 s^2 texels. All begin with the smallest side, and the one that gains most for its texels is doubled, until all
-/// have what they want. What is left then is shared in the same way, until more is of no use. Takes n log n steps for n
+/// have what they want. The rest is shared in the same way, until more is of no use. Takes n log n steps for n
 /// claims, and nothing from the heap once warm.
 class TexelShares {
 public:

@@ -34,11 +34,11 @@ struct LightPoint {
 // plane by as much as the map errs; and of a wide sun they hide a part.
 GN_CONST real kHardlyFaces = real(0.05);
 
-// Of the point `p` of a triangle with unit normal `n`, for a light of this `radius` in direction `to_light`, as for
-// shareOverHorizon(). Whether it faces the light the smooth normal over it says, as for shading. Where that faces the light and the triangle does not,
-// or hardly, light arrives at the smooth surface, whose plane no part of a convex body rises over. Where the light all
-// but grazes, the plane is leant back to where filters can follow it: the bias of a steeper one would let light through
-// whatever shades the body.
+// A point `p` of a triangle with unit normal `n`, for a light of this `radius` in direction `to_light`, as for
+// shareOverHorizon(). The smooth normal over it says whether it faces the light, as for shading. Where that faces the
+// light and the triangle does not, or hardly, light arrives at the smooth surface, whose plane no part of a convex body
+// rises over. Where the light all but grazes, the plane is leant back to where filters can follow it: the bias of a
+// steeper one would let light through whatever shades the body.
 GN_FN LightPoint lightPoint(real3 p, real3 n, SmoothSurface s, real3 to_light, real radius)
 {
     LightPoint at;

@@ -331,12 +331,13 @@ public:
     void recordMaps(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                     const DrawCasters& draw, Profiler* profiler = nullptr);
     /// Records the mask: every layer, every channel. 1 = fully lit; background 1; lights without a map 1; a surface
-    /// that faces away from a light (or that it grazes, below 0.11 degrees) 0. Pixels at which nothing can be in a
-    /// spot or point light's reach (pack::screenBounds()) are 1, whichever way their surface faces: it is not drawn
-    /// there. Without Frame::objects only a light with a range has such pixels. Afterwards mask() is readable by
-    /// FRAGMENT_SHADER, COMPUTE_SHADER and TRANSFER. Nothing is recorded where mask() holds all this already
-    /// (MaskInputs::content); of lights whose frames converge, of suns with step-alternate and of views with
-    /// View::gpu_cascade that is not known.
+    /// that faces away from a light 0. A pixel is at most the share of the light's disc that is over its surface's
+    /// horizon; a light without a size, and any light with filter volumes, has a step there at 0.11 degrees. Pixels at
+    /// which nothing can be in a spot or point light's reach (pack::screenBounds()) are 1, whichever way their surface
+    /// faces: it is not drawn there. Without Frame::objects only a light with a range has such pixels. Afterwards
+    /// mask() is readable by FRAGMENT_SHADER, COMPUTE_SHADER and TRANSFER. Nothing is recorded where mask() holds all
+    /// this already (MaskInputs::content); of lights whose frames converge, of suns with step-alternate and of views
+    /// with View::gpu_cascade that is not known.
     void recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                     const MaskInputs& inputs, Profiler* profiler = nullptr);
 
