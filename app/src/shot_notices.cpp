@@ -106,9 +106,8 @@ void noteDistances(Shot& shot)
     }
     constexpr float kMetresOfKm = 1000.0F;
     shot.notices.push_back(fmt::format(
-        "the scene reaches {:.0f} km from the origin, where single precision has steps of {:.3g} m: shadows of {} of "
-        "its "
-        "{} objects may be lost or off by as much, in the truth too; leave out what is far, or bring it nearer",
+        "the scene reaches {:.0f} km from the origin, where single precision has steps of {:.3g} m: shadows of {} "
+        "of its {} objects may be lost or off by as much, in the truth too; leave out what is far, or bring it nearer",
         reach_m / kMetresOfKm, std::nextafter(reach_m, std::numeric_limits<float>::infinity()) - reach_m, lost,
         shot.state.objects.size()));
 }

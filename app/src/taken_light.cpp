@@ -231,8 +231,8 @@ bool Search::isDark(const glm::dvec3& p, const Light& light)
     return blocks(light.position_ws, way, light.near_m / glm::length(way), 1.0);
 }
 
-/// In all directions around a lamp. Under a sun in nine of ten of those that lead up, or the ground would
-/// surround what stands on it when the sun is below.
+/// In all directions around a lamp; under a sun in nine of ten of those that lead up, or the ground would surround
+/// its objects when the sun is below.
 bool Search::surrounds(const Light& light)
 {
     const bool is_sun = light.type == LightType::directional;

@@ -36,7 +36,7 @@ json twoPlaces(double apart_m)
     return gltf;
 }
 
-/// What the program says, with a camera that looks at one of the two places.
+/// The words of the program, with a camera that looks at one of the two places.
 std::string said(const test::Folder& folder, double x, std::vector<std::string> arguments)
 {
     const std::vector<std::string> camera{"far.gltf", fmt::format("--eye={:.0f},6,12", x + 8.0),

@@ -117,7 +117,7 @@ const std::vector<Claim>& frustums2006()
          .verdict = Verdict::fails,
          .quick = true,
          .why =
-             "Of surfaces that face eye and lamp, with `multi.divide=receivers`. Sides of maps are rounded up, and a "
+             "On surfaces that face eye and lamp, with `multi.divide=receivers`. Sides of maps are rounded up, and a "
              "pixel takes the finest frustum that holds it."},
         {.id = "2006-near-more-texels",
          .claim = "Objects close to the viewer get more texels",

@@ -63,9 +63,10 @@ enum class MultiDivide : std::uint8_t {
 /// Partition multi.
 struct MultiOptions {
     MultiDivide divide = MultiDivide::space; // what is divided among frustums
-    /// What each part of the picture is given, as long as a light's texels last: 0.125 .. 8. Nothing: 1, and then
-    /// the rest of them, until a texel is an eighth of a pixel. The rest is not touched where a frame's drawing is
-    /// bounded (draw_budget_texels, draw_budget_ms), where map_size is given, by receivers, nor with most_times.
+    /// Texels a pixel that each part of the picture is given, as long as a light's texels last: 0.125 .. 8. Nothing: 1,
+    /// and then the rest of them, until a texel is an eighth of a pixel. The rest is not touched where a frame's
+    /// drawing is bounded (draw_budget_texels, draw_budget_ms), where map_size is given, by receivers, nor with
+    /// most_times.
     std::optional<double> texels_per_pixel;
     /// A frustum serves no two places of which one needs so many times as many texels a pixel as the other: 2 .. 1024,
     /// by powers of two, rounded down; less is 2. Of four in one direction the last serves all that is left. 0:
