@@ -45,6 +45,10 @@ FrustumPlanner::Lie FrustumPlanner::lieOf(const FrustumInput& input)
     lie.border_texels = recipe.resolved.borderOf(input.map_size);
     lie.space = lightSpaceOf(input.light, input.slice.axis_ws, input.slice.half_angle_rad, camera.scene_ws);
     lie.space.near_m *= input.slice.near_share;
+    if (input.slice.up_ws != glm::dvec3(0.0)) {
+        lie.space.up_ws = input.slice.up_ws;
+        lie.space.right_ws = glm::cross(lie.space.forward_ws, input.slice.up_ws);
+    }
     if (recipe.layersWorld() && recipe.options.moments.layer_axis == LayerAxis::height) {
         lie.space.depth_ws = heightDepth(lie.space);
     } else if (recipe.levelsDepth()) {
@@ -249,6 +253,9 @@ Outcome FrustumPlanner::widenForLight(const FrustumInput& input, const RegionInp
 Warp FrustumPlanner::warpOf(const FrustumInput& input, const Lie& lie) const
 {
     const Recipe& recipe = input.recipe;
+    if (input.slice.up_ws != glm::dvec3(0.0)) {
+        return {}; // a piece of a warp is affine
+    }
     if (recipe.searchesWarp()) {
         const FitInput fit = fitInputOf(input, lie);
         return warpOfStrength(fit, slopeOfBody(fit), input.strength);

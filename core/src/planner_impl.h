@@ -171,7 +171,7 @@ struct Planner::Impl {
     [[nodiscard]] LightSample sampleAt(const Frame& frame, std::uint32_t index) const;
     Outcome planStands(const Frame& frame, std::uint32_t index, std::uint32_t earlier_slot);
     void planStand(const Frame& frame, const Stand& stand, std::optional<Outcome>& best);
-    void listSlices(const Stand& stand, const Setup& setup);
+    void listSlices(const Frame& frame, const Stand& stand, const Setup& setup);
     const PartitionTraits& partitionOf(const Setup& setup, const Stand& stand);
     Outcome planSlice(const Frame& frame, const Stand& stand, Setup& setup, const PlannedSlice& slice);
     void addView(const Stand& stand, const MapPlace& place, const View& planned);

@@ -218,7 +218,7 @@ Outcome Planner::Impl::planStands(const Frame& frame, std::uint32_t index, std::
 void Planner::Impl::planStand(const Frame& frame, const Stand& stand, std::optional<Outcome>& best)
 {
     Setup& setup = setups[stand.at.options];
-    listSlices(stand, setup);
+    listSlices(frame, stand, setup);
     if (planned_slices.empty() && !best) {
         best = {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
     }
@@ -231,7 +231,7 @@ void Planner::Impl::planStand(const Frame& frame, const Stand& stand, std::optio
 }
 
 /// How the light is divided.
-void Planner::Impl::listSlices(const Stand& stand, const Setup& setup)
+void Planner::Impl::listSlices(const Frame& frame, const Stand& stand, const Setup& setup)
 {
     const std::uint32_t tenant = first_tenants[stand.light];
     planned_slices.clear();
@@ -246,10 +246,18 @@ void Planner::Impl::listSlices(const Stand& stand, const Setup& setup)
         return;
     }
     slices.clear();
-    partitionOf(setup, stand).divide({stand.at, setup.camera, setup.recipe.options.cascades}, slices);
+    const Recipe& recipe = setup.recipe;
+    partitionOf(setup, stand).divide({stand.at, setup.camera, recipe.options.cascades}, slices);
+    if (const std::uint32_t segments = recipe.resolved.segments(); segments > 1) {
+        const Slice whole = slices.front();
+        const std::span receivers = receiversOf(stand.light, stand.at);
+        slices.clear();
+        frustums.divideTsm({frame, recipe, setup.camera, receivers, receivers, stand.at, whole,
+                            store.placeOf(tenant, stand.slot, 0).tile.width},
+                           segments, recipe.options.cascades.blend, slices);
+    }
     for (std::uint32_t i = 0; i < slices.size(); ++i) {
-        const double strength =
-            setup.recipe.predicts() ? chooser.decisionOf(setup.recipe, stand.light).strengths[i] : 1.0;
+        const double strength = recipe.searchesWarp() ? chooser.decisionOf(recipe, stand.light).strengths[i] : 1.0;
         planned_slices.push_back({slices[i], receiversOf(stand.light, stand.at), strength, tenant, i});
     }
 }

@@ -99,7 +99,7 @@ MapWish Recipe::wishOf(const Light& light, std::uint32_t index, const PartitionT
 std::uint32_t Recipe::mapsOf(const PartitionTraits& divided) const
 {
     if (divided.maps != 0) {
-        return divided.maps;
+        return std::max(divided.maps, resolved.segments());
     }
     return divided.fits_on_gpu && choosesPartition() ? 1 : options.cascades.count; // one, as takesDepth() has it
 }

@@ -31,7 +31,7 @@ std::uint32_t fewViews(const ResolvedOptions& options)
                         technique.partition == Partition::multi || technique.partition == Partition::automatic;
     const std::uint32_t cascades = std::min(static_cast<std::uint32_t>(options.cascades().count), shared::kFewViews);
     const bool divided = technique.partition != Partition::single && cascades > 1;
-    return steps ? 0 : around ? shared::kFewViews : divided ? cascades : 1;
+    return steps ? 0 : around ? shared::kFewViews : divided ? cascades : options.segments();
 }
 
 std::uint32_t fewViewsOf(const Plan& plan)

@@ -2,6 +2,8 @@
 // The trapezoid: where its focus line lies in the map, and the paper's equation.
 #include "fit_stage.h"
 
+#include "fit/tsm_segments.h"
+
 #include <gtest/gtest.h>
 
 namespace gnomon {
@@ -53,6 +55,87 @@ TEST(FitTsm, FadesWhereAllIsAboutEquallyFar)
         last = strength;
     }
     EXPECT_LT(last, 1.02);
+}
+
+/// However little the camera leans: what is equally far wants no warp.
+TEST(FitTsm, HasNoWarpWhereAllIsEquallyFar)
+{
+    for (double lean = 1e-8; lean < 1e-3; lean *= 3.0) {
+        test::Stage stage;
+        stage.set.add(test::boxAt({0, 0, 0}, {5, 0, 5}));
+        stage.camera = test::perspectiveCamera({0, 300, 300 * lean}, {0, 0, 0}, 0.1, 1.6, 0.1, 2000.0);
+        EXPECT_FALSE(fitTsm(FitStage(stage).input()).warped()) << lean;
+    }
+}
+
+/// Texels a pixel at the near end of a piece, up to a constant: what the pieces are to have alike.
+double errorOf(double near, double slope, double widening, double a, double b)
+{
+    return std::sqrt((b - a) * (1.0 + widening * b)) / (near + slope * a);
+}
+
+TEST(FitTsm, SegmentsErrAlikeAndLessThanFewer)
+{
+    const FitStage stage(levelGround());
+    const FitInput input = stage.input();
+    const Warp warp = fitTsm(input);
+    const double near = 1.7 / std::tan(glm::radians(30.0));
+    double last = errorOf(near, 1.0, 1.0 / warp.n, 0.0, 200.0 - near);
+    for (std::uint32_t count = 2; count <= 6; ++count) {
+        const std::vector<double> ends = segmentTsm(input, count).ends;
+        ASSERT_EQ(ends.size(), count + 1);
+        const double first = errorOf(near, 1.0, 1.0 / warp.n, 0.0, ends[1] - ends[0]);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const double error = errorOf(near, 1.0, 1.0 / warp.n, ends[i] - ends[0], ends[i + 1] - ends[0]);
+            EXPECT_NEAR(error, first, 2e-3 * first) << count << " pieces, " << i;
+        }
+        EXPECT_LT(first, 0.9 * last) << count;
+        last = first;
+    }
+}
+
+TEST(FitTsm, SegmentsAreEvenWhereNothingIsNear)
+{
+    test::Stage stage;
+    stage.set.add(test::boxAt({0, 0, 0}, {5, 0, 5}));
+    stage.camera = test::perspectiveCamera({0, 300, 0.001}, {0, 0, 0}, 0.1, 1.6, 0.1, 2000.0);
+    const FitStage fit(stage); // the camera looks along the light
+    const TsmSegments found = segmentTsm(fit.input(), 4);
+    ASSERT_EQ(found.ends.size(), 5U);
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_NEAR(found.ends[i + 1] - found.ends[i], 0.25 * (found.ends[4] - found.ends[0]), 1e-4);
+    }
+}
+
+TEST(FitTsm, SegmentsAreMapsOfOneTurnWhoseNearTexelsAreFinest)
+{
+    test::Stage stage = levelGround();
+    stage.options.tsm_segments = 4;
+    const Plan plan = stage.plan(Fit::tsm);
+    ASSERT_EQ(plan.lights[0].outcome.kind, OutcomeKind::ok);
+    ASSERT_GE(plan.views.size(), 3U); // the last may have no caster
+    for (std::size_t i = 0; i < plan.views.size(); ++i) {
+        const View& view = plan.views[i];
+        EXPECT_TRUE(view.orthographic);
+        EXPECT_EQ(view.slice.axis, plan.views[0].slice.axis);
+        EXPECT_TRUE(i == 0 || view.texel_m > plan.views[i - 1].texel_m);
+    }
+}
+
+TEST(FitTsm, SegmentsAreRefusedWhereNobodyCouldDivide)
+{
+    ShadowOptions options{.technique = kPlainTechnique};
+    options.technique.fit = Fit::tsm;
+    options.tsm_segments = 4;
+    EXPECT_TRUE(resolve(options));
+    options.technique.partition = Partition::cascades;
+    EXPECT_NE(resolve(options).refusal.find("tsm.segments"), std::string::npos);
+    options.technique.partition = Partition::single;
+    options.technique.motion = Motion::snap;
+    EXPECT_NE(resolve(options).refusal.find("tsm.segments"), std::string::npos);
+    options.technique.fit = Fit::uniform; // then it means nothing
+    EXPECT_TRUE(resolve(options));
+    EXPECT_EQ(resolve(options)->segments(), 1U);
 }
 
 } // namespace

@@ -76,6 +76,30 @@ TEST(PlanPropertiesOfSteps, HoldForEachPosition)
     EXPECT_GT(tally.blocked, 3000);
 }
 
+/// Pieces of one trapezoid serve all that it would, suns' and lamps'.
+TEST(PlanPropertiesOfSegments, HoldForRandomScenes)
+{
+    Tally tally;
+    std::size_t divided = 0;
+    for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        RandomScene scene = randomScene(seed, {Partition::single, Fit::tsm, Filter::pcf, Soften::none, Motion::free});
+        scene.options.tsm_segments = static_cast<std::uint32_t>(2 + seed % (kMaxCascades - 1));
+        Planner planner(scene.options);
+        const Plan& plan = planner.plan(scene.frame());
+        for (const LightPlan& light : plan.lights) {
+            ASSERT_LE(light.view_count, scene.options.tsm_segments);
+            divided += light.view_count > 1 ? 1 : 0;
+        }
+        Random random(seed + 1000000);
+        ASSERT_NO_FATAL_FAILURE(judge(scene, plan, random, tally));
+    }
+    EXPECT_GT(divided, 2000U);
+    EXPECT_GT(tally.seen, 30000);
+    EXPECT_GT(tally.blocked, 30000);
+    EXPECT_EQ(tally.warped, 0);
+}
+
 class PlanProperties : public testing::TestWithParam<Technique> {};
 
 /// Maps keep their places, so those that come and go with what is seen lie where earlier frames left room.

@@ -193,6 +193,8 @@ std::vector<DriverCase> cases()
     for (const char* fit : {"lispsm", "lispsm-simple", "tsm", "psm", "scene"}) {
         add(std::string("fit_") + fit, "planes", small + "--technique pcf+single+" + fit);
     }
+    add("fit_tsm_segments", "planes", small + "--technique pcf+single+tsm --set tsm.segments=4");
+    add("fit_tsm_segments_spot", "spotlit", tiny + "--technique pcf+single+tsm --set tsm.segments=3", 25);
     add("fit_psm_raymarch", "planes", small + "--technique raymarch+psm+single");
     for (const char* partition : {"cascades", "sdsm", "multi"}) {
         add(std::string("partition_") + partition, "planes", small + "--technique pcf+" + partition);

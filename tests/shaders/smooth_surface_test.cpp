@@ -175,18 +175,24 @@ TEST(ShareOverHorizon, IsTheDiscs)
 {
     const dvec3 n(0.0, 1.0, 0.0);
     for (const double length : {0.01, 1.0, 300.0}) {
-        for (double height = -2.0; height <= 2.0; height += 0.01) {
-            constexpr double kRadius = 0.005;
-            const dvec3 to_light = length * glm::normalize(dvec3(1.0, height * kRadius, 0.0));
-            const double t = std::clamp(glm::dot(n, to_light) / (kRadius * length), -1.0, 1.0);
-            const double area = 0.5 + (std::asin(t) + t * std::sqrt(1.0 - t * t)) / std::numbers::pi;
-            EXPECT_NEAR(shareOverHorizon(n, to_light, kRadius * length), area, 0.04) << height;
+        for (const double radius : {0.002, 0.005, 0.03, 0.2}) {
+            for (double height = -2.0; height <= 2.0; height += 0.01) {
+                const dvec3 to_light = length * glm::normalize(dvec3(1.0, height * radius, 0.0));
+                const double t = std::clamp(glm::dot(n, to_light) / (radius * length), -1.0, 1.0);
+                const double area = 0.5 + (std::asin(t) + t * std::sqrt(1.0 - t * t)) / std::numbers::pi;
+                EXPECT_NEAR(shareOverHorizon(n, to_light, radius * length), area, 0.04) << height << ' ' << radius;
+            }
         }
         for (const double height : {-0.5, 0.0, 0.001, 0.0019, 0.0021, 0.004, 0.5}) {
             const dvec3 to_light = length * glm::normalize(dvec3(1.0, height, 0.0));
             EXPECT_EQ(shareOverHorizon(n, to_light, 0.0), height > kGrazing ? 1.0 : 0.0) << height;
         }
     }
+}
+
+TEST(ShareOverHorizon, IsANumberAtALightsOwnPlace)
+{
+    EXPECT_EQ(shareOverHorizon(dvec3(0.0, 1.0, 0.0), dvec3(0.0), 0.0), 0.0);
 }
 
 // Bit for bit, so that nothing changes for flat meshes, nor for hosts that have no normals.

@@ -115,7 +115,7 @@ const std::vector<Claim>& table2010()
                     [](const Runs& r) { return frameOver(r, "pcf+step-blend"); }, 1.2, 1.5}},
          .verdict = Verdict::holds,
          .quick = false,
-         .why = "Casters and samples are twice as many all over the picture. No GPU was measured."},
+         .why = "Casters and samples are twice as many all over the picture."},
         {.id = "2010-alternate",
          .claim = "To draw the two positions in alternate frames would be cheaper than the full blend, and take one "
                   "more target as large as the screen",

@@ -233,7 +233,7 @@ const std::vector<Claim>& table2011()
                     [](const Runs& r) { return r.ratio(kAllMeans, kPoint, "/time_ms/frame"); }, 0.0, 1.1}},
          .verdict = Verdict::fails,
          .quick = false,
-         .why = "On a software rasteriser, which has no fixed units for samples and filters. No GPU was measured."},
+         .why = "On a software rasteriser, which has no fixed units for samples and filters."},
         {.id = "2011-bloom",
          .claim = "Bloom helps to hide what artefacts remain",
          .commands = {("gnomon render --preset rts-2011 --set bloom=0 --size 320x180 --truth area --samples 64 -o "

@@ -116,7 +116,7 @@ const std::vector<Claim>& table2014()
          .verdict = Verdict::fails,
          .quick = false,
          .why = "Its map has one number a texel in place of two, and its blur moves 0.72 of the bytes. Bytes are not "
-                "what takes a software rasteriser its time, and its mask takes longer. No GPU was measured."},
+                "what takes a software rasteriser its time, and its mask takes longer."},
         {.id = "2014-vsm-fast",
          .claim = "Variance maps are fast, because they are filtered before they are read",
          .commands = {kTimes},
@@ -127,7 +127,7 @@ const std::vector<Claim>& table2014()
          .verdict = Verdict::partly,
          .quick = false,
          .why = "Reading takes two thirds of the time. The maps are for what moves, as the article's characters do, so "
-                "four samples and a blur are made in each frame. No GPU was measured."},
+                "four samples and a blur are made in each frame."},
     };
     return table;
 }

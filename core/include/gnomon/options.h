@@ -230,7 +230,10 @@ struct ShadowOptions {
     std::uint32_t max_texels = 2048 * 2048;
     /// Receivers farther than this from the eye get no shadow, metres; 0: no limit.
     double max_distance_m = 0.0;
-    double fade = 0.1;                           // share of max_distance_m over which shadows fade away: 0 .. 1
+    double fade = 0.1; // share of max_distance_m over which shadows fade away: 0 .. 1
+    /// Fit tsm with partition single and motion free: affine pieces that the trapezoid is drawn in, each with a map of
+    /// its own, near ones smaller; 1 .. kMaxCascades. 1: all of it by one projective warp.
+    std::uint32_t tsm_segments = 1;
     CascadeOptions cascades;                     // partitions cascades and sdsm
     MultiOptions multi;                          // partition multi
     StepOptions steps;                           // the step motions
@@ -309,6 +312,8 @@ public:
     [[nodiscard]] const MomentOptions& moments() const { return asked_.moments; }
     /// ShadowOptions::cascades
     [[nodiscard]] const CascadeOptions& cascades() const { return asked_.cascades; }
+    /// ShadowOptions::tsm_segments; 1 with every fit but tsm.
+    [[nodiscard]] std::uint32_t segments() const;
     /// How partition multi divides a light.
     [[nodiscard]] const MultiOptions& multi() const { return asked_.multi; }
     /// ShadowOptions::screen_blur
@@ -386,6 +391,8 @@ struct Resolution {
 [[nodiscard]] GNOMON_API Filter filterOf(const ShadowOptions& options);
 /// What a frame draws is bounded, in texels or milliseconds: maps take turns.
 [[nodiscard]] GNOMON_API bool boundsDrawing(const ShadowOptions& options);
+/// ShadowOptions::tsm_segments, or 1 where the fit is not tsm.
+[[nodiscard]] GNOMON_API std::uint32_t segments(const ShadowOptions& options);
 /// A light's cascades take turns each by itself (CascadeOptions::room).
 [[nodiscard]] GNOMON_API bool turnsByCascade(const ShadowOptions& options);
 /// The filter reads maps. Of filter volumes, which does not, nothing counts that is said of maps, but resolve() refuses

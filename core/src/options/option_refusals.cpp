@@ -187,6 +187,20 @@ std::optional<std::string> roomRefusal(const ShadowOptions& options)
     return std::nullopt;
 }
 
+/// Pieces of one frustum's trapezoid, found anew in each frame.
+std::optional<std::string> segmentsRefusal(const ShadowOptions& options)
+{
+    if (segments(options) > 1 && options.technique.partition != Partition::single) {
+        return "tsm.segments above 1: they divide the one frustum of partition single; other partitions divide by "
+               "themselves";
+    }
+    if (segments(options) > 1 && options.technique.motion != Motion::free) {
+        return "tsm.segments above 1: they follow what each frame shows, so nobody can hold them still; they need "
+               "motion free";
+    }
+    return std::nullopt;
+}
+
 std::optional<std::string> smoothiesRefusal(const ShadowOptions& options)
 {
     const MapFormat format = formatOf(options);
@@ -251,6 +265,9 @@ std::optional<std::string> refusalOfOptions(const ShadowOptions& options)
         return reason;
     }
     if (auto reason = roomRefusal(options)) {
+        return reason;
+    }
+    if (auto reason = segmentsRefusal(options)) {
         return reason;
     }
     if (auto reason = smoothiesRefusal(options)) {

@@ -78,9 +78,14 @@ bool hasTurnsOfCascades(const ShadowOptions& o)
 {
     return boundsDrawing(o) && o.technique.partition == Partition::cascades;
 }
+bool isTsm(const ShadowOptions& o)
+{
+    return o.technique.fit == Fit::tsm && o.technique.partition == Partition::single &&
+           o.technique.motion == Motion::free && hasMaps(o);
+}
 bool hasBlends(const ShadowOptions& o)
 {
-    return hasCascades(o) || isMulti(o);
+    return hasCascades(o) || isMulti(o) || segments(o) > 1;
 }
 
 } // namespace
@@ -95,9 +100,10 @@ void addPlanRows(std::vector<OptionRow>& table)
         {.key = "cascades.count", .type = integer, .form = "N", .min = 1, .max = kMaxCascades, .doc = "slices of the view, each with a map", .used = hasCascades, .used_when = kCascades, .get = getCount, .set = setCount},
         {.key = "cascades.lambda", .type = real, .form = "V", .min = 0, .max = 1, .doc = "1 splits the view logarithmically, 0 evenly", .used = hasSplits, .used_when = "partition cascades, sdsm or auto without cascades.ends", GNOMON_MEMBER(cascades.lambda)},
         {.key = "cascades.ends", .type = numbers, .form = "M/M/...", .unit = "m", .min = 0, .max = kFarthestPlace_m, .count = kMaxCascades - 1, .doc = "where all cascades but the last end, ascending, as 10/40: one more than these", .used = hasCascades, .used_when = kCascades, .get = getEnds, .set = setEnds},
-        {.key = "cascades.blend", .type = real, .form = "V", .unit = "of a cascade", .min = 0, .max = 0.5, .doc = "or octave of multi, over which one fades into the next", .used = hasBlends, .used_when = "partition cascades, sdsm, multi or auto", GNOMON_MEMBER(cascades.blend)},
+        {.key = "cascades.blend", .type = real, .form = "V", .unit = "of a cascade", .min = 0, .max = 0.5, .doc = "or segment of tsm, or octave of multi, over which one fades into the next", .used = hasBlends, .used_when = "partition cascades, sdsm, multi or auto, or tsm.segments above 1", GNOMON_MEMBER(cascades.blend)},
         {.key = "cascades.pass", .type = choice, .form = "PASS", .choices = namesOf<CascadePass>, .doc = "maps drawn each in a pass, or in one with layers; auto: each", .used = canDrawTogether, .used_when = "filter hard or pcf and partition cascades, sdsm or auto", GNOMON_MEMBER(cascades.pass)},
         {.key = "cascades.room", .type = real, .form = "V", .unit = "of a cascade", .min = 0, .max = 0.5, .doc = "that maps of all cascades but the first show on each side beyond what is seen, so that each waits for a turn of its own; 0: a light's maps wait together", .used = hasTurnsOfCascades, .used_when = "partition cascades and draw-budget or draw-budget.ms above 0", GNOMON_MEMBER(cascades.room)},
+        {.key = "tsm.segments", .type = integer, .form = "N", .min = 1, .max = kMaxCascades, .doc = "affine pieces of the trapezoid along the view, each with a map; 1: one projective warp", .used = isTsm, .used_when = "fit tsm, partition single and motion free", GNOMON_MEMBER(tsm_segments)},
         {.key = "multi.divide", .type = choice, .form = "WAY", .choices = namesOf<MultiDivide>, .doc = "space, or receivers gathered into cones of at most 120 degrees", .used = isMulti, .used_when = "partition multi", GNOMON_MEMBER(multi.divide)},
         {.key = "multi.texels-per-pixel", .type = real, .form = "Q", .min = 0.125, .max = 8, .none_text = "auto", .doc = "what multi gives each part of the picture, as long as a light's texels last; auto: 1, and then what is left of them", .used = isMulti, .used_when = "partition multi", GNOMON_MEMBER(multi.texels_per_pixel)},
         {.key = "multi.most-times", .type = real, .form = "X", .min = 0, .max = 1024, .doc = "how many times as many texels a pixel one place may need as another in a frustum of multi; 0: divide where that saves texels, or 4 with multi.divide receivers", .used = isMulti, .used_when = "partition multi", GNOMON_MEMBER(multi.most_times)},

@@ -110,6 +110,16 @@ bool boundsDrawing(const ShadowOptions& options)
     return options.draw_budget_texels > 0 || options.draw_budget_ms > 0.0;
 }
 
+std::uint32_t segments(const ShadowOptions& options)
+{
+    return options.technique.fit == Fit::tsm ? options.tsm_segments : 1;
+}
+
+std::uint32_t ResolvedOptions::segments() const
+{
+    return gnomon::segments(asked_);
+}
+
 bool turnsByCascade(const ShadowOptions& options)
 {
     return boundsDrawing(options) && options.technique.partition == Partition::cascades && options.cascades.room > 0.0;

@@ -18,8 +18,9 @@ struct Slice {
     double near_share = 1.0;            // of the light's near distance: where the pyramid begins, along its axis
     std::array<Plane, 8> cut;           // inward; receivers outside belong to another slice
     std::uint32_t cut_count = 0;
-    ViewSlice depth;   // of the camera that it serves
-    ViewSector sector; // of the light's directions
+    ViewSlice depth;       // of the camera that it serves
+    ViewSector sector;     // of the light's directions
+    glm::dvec3 up_ws{0.0}; // unit, across axis_ws: the map's way up; 0: the light's own
     /// Side of the texels of a map that holds still and shows no more than what is seen, as LightRect has it. 0: the
     /// motion finds it.
     double texel = 0.0;

@@ -17,7 +17,7 @@ GN_CONST real kGrazing = real(0.002);
 // what it lacks.
 GN_FN real shareOverHorizon(real3 n, real3 to_light, real radius)
 {
-    real least = kGrazing * length(to_light);
+    real least = kGrazing * length(to_light) + real(1e-30); // more than 0 at a light's own place too
     real middle = max(least - radius, real(0.0));
     real half_width = max(radius, real(1e-3) * least);
     return smoothstep(middle - half_width, middle + half_width, dot(n, to_light));
