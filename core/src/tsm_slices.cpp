@@ -21,8 +21,7 @@ Plane planeOf(const glm::dvec4& row)
 void FrustumPlanner::divideTsm(const FrustumInput& input, std::uint32_t count, double blend, std::vector<Slice>& out)
 {
     const Lie lie = lieOf(input);
-    TsmSegments found =
-        lie.outcome.kind == OutcomeKind::ok ? segmentTsm(fitInputOf(input, lie), count) : TsmSegments{};
+    TsmSegments found = lie.outcome.kind == OutcomeKind::ok ? segmentTsm(fitInputOf(input, lie), count) : TsmSegments{};
     Slice whole = input.slice;
     if (found.ends.empty()) {
         out.push_back(whole);

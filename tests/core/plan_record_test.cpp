@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plans of all kinds are those that were recorded. plans.txt has a hash of each, of its JSON with numbers to seven
 // digits, so that processors whose sines differ in the last bit agree. GNOMON_PLANS_UPDATE=1 records anew.
-// GNOMON_PLANS_WRITE=FILE writes the JSON itself, with all digits: two builds plan alike where their files are the same.
+// GNOMON_PLANS_WRITE=FILE writes the JSON itself, with all digits: two builds plan alike where their files are the
+// same.
 #include "random_scenes.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +30,8 @@ constexpr std::uint64_t kSeedsWritten = 40;
 struct Kind {
     std::string name;
     Technique technique;
-    std::function<void(ShadowOptions&)> change = [](ShadowOptions&) {};
+    std::function<void(ShadowOptions&)> change = [](ShadowOptions&) {
+    };
     std::uint32_t more_lights = 0; // so many lamps more, of the same options
 };
 
@@ -62,22 +64,40 @@ void addOptions(std::vector<Kind>& kinds)
     const Technique cascades{Partition::cascades, Fit::uniform, Filter::pcf};
     const Technique multi{Partition::multi, Fit::uniform, Filter::pcf};
     const Technique steps{Partition::single, Fit::uniform, Filter::pcf, Soften::none, Motion::step_blend};
-    kinds.push_back({"map size given", cascades, [](ShadowOptions& o) { o.map_size = 256; }});
-    kinds.push_back({"map size auto", cascades, [](ShadowOptions& o) { o.map_size.reset(); }});
-    kinds.push_back({"segments", {Partition::single, Fit::tsm}, [](ShadowOptions& o) { o.tsm_segments = 4; }});
-    kinds.push_back({"receivers", multi, [](ShadowOptions& o) { o.multi.divide = MultiDivide::receivers; }});
-    kinds.push_back({"most times", multi, [](ShadowOptions& o) { o.multi.most_times = 4.0; }});
+    kinds.push_back({"map size given", cascades, [](ShadowOptions& o) {
+                         o.map_size = 256;
+                     }});
+    kinds.push_back({"map size auto", cascades, [](ShadowOptions& o) {
+                         o.map_size.reset();
+                     }});
+    kinds.push_back({"segments", {Partition::single, Fit::tsm}, [](ShadowOptions& o) {
+                         o.tsm_segments = 4;
+                     }});
+    kinds.push_back({"receivers", multi, [](ShadowOptions& o) {
+                         o.multi.divide = MultiDivide::receivers;
+                     }});
+    kinds.push_back({"most times", multi, [](ShadowOptions& o) {
+                         o.multi.most_times = 4.0;
+                     }});
     kinds.push_back({"multi snap", {Partition::multi, Fit::uniform, Filter::pcf, Soften::none, Motion::snap}});
-    kinds.push_back({"two maps a texel", steps, [](ShadowOptions& o) { o.format = MapFormat::rg16; }});
-    kinds.push_back({"kept", cascades, [](ShadowOptions& o) { o.keep_still = KeepStill::always; }});
-    kinds.push_back({"distance", cascades, [](ShadowOptions& o) { o.max_distance_m = 3.0; }});
-    kinds.push_back({"open volumes",
-                     {Partition::single, Fit::uniform, Filter::volumes},
-                     [](ShadowOptions& o) { o.volumes.open = OpenCasters::skip; }});
+    kinds.push_back({"two maps a texel", steps, [](ShadowOptions& o) {
+                         o.format = MapFormat::rg16;
+                     }});
+    kinds.push_back({"kept", cascades, [](ShadowOptions& o) {
+                         o.keep_still = KeepStill::always;
+                     }});
+    kinds.push_back({"distance", cascades, [](ShadowOptions& o) {
+                         o.max_distance_m = 3.0;
+                     }});
+    kinds.push_back({"open volumes", {Partition::single, Fit::uniform, Filter::volumes}, [](ShadowOptions& o) {
+                         o.volumes.open = OpenCasters::skip;
+                     }});
     kinds.push_back({"world layers", {Partition::single, Fit::uniform, Filter::lvsm}, [](ShadowOptions& o) {
                          o.moments.placement = LayerPlacement::world;
                      }});
-    kinds.push_back({"coloured", cascades, [](ShadowOptions& o) { o.translucent = Translucent::colour; }});
+    kinds.push_back({"coloured", cascades, [](ShadowOptions& o) {
+                         o.translucent = Translucent::colour;
+                     }});
     for (const Technique& technique : {cascades, multi}) {
         const std::string name(nameOf(technique.partition));
         kinds.push_back({"budget " + name, technique, [](ShadowOptions& o) { o.budget_texels = 1U << 20U; }, 12});

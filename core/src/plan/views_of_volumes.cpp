@@ -2,7 +2,7 @@
 // A light that has no maps: whose shadow volumes are to be counted (filter volumes).
 // Based on: M. McGuire, J. F. Hughes, K. T. Egan, M. J. Kilgard, C. Everitt, "Fast, Practical and Robust Shadows",
 // 2003, section 2.4 (which casters count for a view).
-#include "planner_impl.h"
+#include "plan/views.h"
 
 #include <algorithm>
 
@@ -16,43 +16,46 @@ constexpr Outcome kOpenCaster{
 
 } // namespace
 
-void Planner::Impl::planVolumes(const Frame& frame, std::uint32_t index)
+void Views::listVolumes(const Step& step, std::uint32_t index)
 {
-    LightPlan& planned = plan.lights[index];
-    planned.first_volume = static_cast<std::uint32_t>(plan.casters.size());
+    std::vector<std::uint32_t>& casters = step.plan.casters;
+    LightPlan& planned = step.plan.lights[index];
+    planned.first_volume = static_cast<std::uint32_t>(casters.size());
     if (planned.outcome.kind == OutcomeKind::ok) {
-        planned.outcome = prospect(frame, index, setups[planned.options]);
+        planned.outcome = prospect(step, index);
     }
     if (planned.outcome.kind == OutcomeKind::ok) {
-        planned.outcome = listVolumes(frame, index);
+        planned.outcome = listClosed(step, index);
     }
     if (!planned.outcome.hasMap()) {
-        plan.casters.resize(planned.first_volume);
+        casters.resize(planned.first_volume);
     }
-    planned.volume_count = static_cast<std::uint32_t>(plan.casters.size()) - planned.first_volume;
+    planned.volume_count = static_cast<std::uint32_t>(casters.size()) - planned.first_volume;
 }
 
-Outcome Planner::Impl::listVolumes(const Frame& frame, std::uint32_t index)
+Outcome Views::listClosed(const Step& step, std::uint32_t index)
 {
-    LightPlan& planned = plan.lights[index];
-    const Setup& setup = setups[planned.options];
+    std::vector<std::uint32_t>& casters = step.plan.casters;
+    LightPlan& planned = step.plan.lights[index];
+    const Setup& setup = step.setupOf(index);
+    const Frame& frame = step.sights.frame();
     const Light& light = frame.lights[index];
     const Slice all = wholeSlice(light);
-    const std::span<const std::uint32_t> receivers = receiversOf(index, light);
+    const std::span<const std::uint32_t> receivers = step.sights.receiversOf(index);
     const Outcome found =
-        frustums.listCasters({frame, setup.recipe, setup.camera, receivers, receivers, light, all}, plan.casters);
+        planner_.listCasters({frame, setup.recipe, setup.camera, receivers, receivers, light, all}, casters);
     if (found.kind != OutcomeKind::ok) {
         return found;
     }
-    const auto first = plan.casters.begin() + planned.first_volume;
-    const auto open = std::remove_if(first, plan.casters.end(),
+    const auto first = casters.begin() + planned.first_volume;
+    const auto open = std::remove_if(first, casters.end(),
                                      [&](std::uint32_t object) { return !frame.objects->flags(object).closed; });
-    planned.left_out = static_cast<std::uint32_t>(plan.casters.end() - open);
+    planned.left_out = static_cast<std::uint32_t>(casters.end() - open);
     if (planned.left_out > 0 && setup.recipe.options.volumes.open == OpenCasters::refuse) {
         return kOpenCaster;
     }
-    plan.casters.erase(open, plan.casters.end());
-    return plan.casters.size() == planned.first_volume
+    casters.erase(open, casters.end());
+    return casters.size() == planned.first_volume
                ? Outcome{OutcomeKind::no_caster,
                          "every caster that could shade what is seen is left out: none is closed"}
                : Outcome{};

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/frustums.h"
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+/// Of a light's own maps, or of one of its frustums.
+std::uint64_t tenantKey(const Light& light, std::uint32_t frustum)
+{
+    return std::uint64_t{light.key} << 32U | frustum;
+}
+
+std::uint64_t texelsOf(const MapWish& wish)
+{
+    return std::uint64_t{wish.side} * wish.side * wish.count * wish.positions * (wish.keeps_still ? 2 : 1);
+}
+
+} // namespace
+
+void Frustums::forget()
+{
+    chooser_ = {};
+    multi_ = {};
+}
+
+void Frustums::divide(const Sights& sights, Plan& plan)
+{
+    const Frame& frame = sights.frame();
+    own_wishes_.assign(frame.lights.size(), {});
+    chooser_.follow(frame.lights);
+    multi_.follow(frame.lights);
+    for (std::uint32_t index = 0; index < frame.lights.size(); ++index) {
+        LightPlan& planned = plan.lights[index];
+        const Setup& setup = sights.setups()[planned.options];
+        if (planned.outcome.kind != OutcomeKind::ok || !setup.recipe.hasMaps()) {
+            continue;
+        }
+        if (!setup.recipe.grows()) {
+            own_wishes_[index] = decide(sights, index, planned);
+        } else if (setup.sees()) {
+            // From where its maps are drawn.
+            const Light light = sampledLight(frame.lights[index], sights.lights()[index].sample);
+            multi_.divide(inputOf(sights, index, light), index, planner_);
+        }
+    }
+}
+
+void Frustums::keepDivision(const Sights& sights, std::uint32_t light)
+{
+    multi_.restoreFrustums(inputOf(sights, light, sights.frame().lights[light]), light);
+}
+
+MultiPartition::Input Frustums::inputOf(const Sights& sights, std::uint32_t index, const Light& light)
+{
+    const Setup& setup = sights.setups()[light.options];
+    return {sights.frame(), setup.recipe, setup.camera, sights.receiversOf(index), setup.sight, light};
+}
+
+/// The maps of a light, by its options or by what is predicted of it.
+MapWish Frustums::decide(const Sights& sights, std::uint32_t index, LightPlan& planned)
+{
+    const Light& light = sights.frame().lights[index];
+    const Setup& setup = sights.setups()[light.options];
+    const Recipe& recipe = setup.recipe;
+    if (!recipe.predicts()) {
+        return recipe.wishOf(light, light.options, *recipe.partition, 0);
+    }
+    if (setup.sees()) {
+        const std::span receivers = sights.receiversOf(index);
+        const Slice none;
+        planned.choice = chooser_
+                             .decide({sights.frame(), recipe, setup.camera, receivers, receivers, light, none},
+                                     setup.sight, index, planner_)
+                             .told;
+    }
+    const AutoDecision& decision = chooser_.decisionOf(recipe, index);
+    return recipe.wishOf(light, light.options, *decision.partition, decision.told.halvings);
+}
+
+MapWish Frustums::wishOf(const Sights& sights, const Light& light, const GrownFrustum& frustum) const
+{
+    const Recipe& recipe = sights.setups()[light.options].recipe;
+    MapWish wish = recipe.wishOf(light, light.options, *recipe.partition, 0);
+    wish.side = frustum.side;
+    return wish;
+}
+
+std::uint64_t Frustums::texelsWanted(const Sights& sights, std::uint32_t light) const
+{
+    std::uint64_t texels = texelsOf(own_wishes_[light]);
+    for (const GrownFrustum& frustum : multi_.frustumsOf(light)) {
+        texels += texelsOf(wishOf(sights, sights.frame().lights[light], frustum));
+    }
+    return texels;
+}
+
+void Frustums::list(const Sights& sights, const Plan& plan)
+{
+    listTenants(sights);
+    stands_.clear();
+    frustums_.clear();
+    first_stands_.clear();
+    for (std::uint32_t index = 0; index < plan.lights.size(); ++index) {
+        const LightPlan& planned = plan.lights[index];
+        const Setup& setup = sights.setups()[planned.options];
+        first_stands_.push_back(static_cast<std::uint32_t>(stands_.size()));
+        if (planned.outcome.kind == OutcomeKind::ok && setup.recipe.hasMaps() && setup.sees()) {
+            addStands(sights, index, planned.steps);
+        }
+    }
+    first_stands_.push_back(static_cast<std::uint32_t>(stands_.size()));
+}
+
+/// Each frustum of `multi` is a tenant of its own, so that the others keep their maps when one comes, goes or is sized
+/// anew.
+void Frustums::listTenants(const Sights& sights)
+{
+    keys_.clear();
+    wishes_.clear();
+    first_tenants_.clear();
+    const std::span lights = sights.frame().lights;
+    for (std::uint32_t index = 0; index < lights.size(); ++index) {
+        first_tenants_.push_back(static_cast<std::uint32_t>(keys_.size()));
+        if (own_wishes_[index].count > 0) {
+            keys_.push_back(tenantKey(lights[index], 0));
+            wishes_.push_back(own_wishes_[index]);
+        }
+        for (const GrownFrustum& frustum : multi_.frustumsOf(index)) {
+            keys_.push_back(tenantKey(lights[index], frustum.id));
+            wishes_.push_back(wishOf(sights, lights[index], frustum));
+        }
+    }
+    first_tenants_.push_back(static_cast<std::uint32_t>(keys_.size()));
+}
+
+double Frustums::worthOf(std::uint32_t light, std::uint32_t tenant) const
+{
+    const std::span<const GrownFrustum> grown = multi_.frustumsOf(light);
+    double sum = 0.0;
+    for (const GrownFrustum& frustum : grown) {
+        sum += frustum.sum;
+    }
+    return sum > 0.0 ? grown[tenant - first_tenants_[light]].sum / sum : 1.0;
+}
+
+std::span<const Stand> Frustums::standsOf(std::uint32_t light) const
+{
+    return std::span(stands_).subspan(first_stands_[light], first_stands_[light + 1] - first_stands_[light]);
+}
+
+/// A position keeps its slot, that is its maps, for as long as the sun has it.
+void Frustums::addStands(const Sights& sights, std::uint32_t index, const SunSteps& steps)
+{
+    const Light& light = sights.frame().lights[index];
+    const LightSight& sight = sights.lights()[index];
+    const Recipe& recipe = sights.setups()[light.options].recipe;
+    for (const bool later : {false, true}) {
+        if (later && !steps.paired) {
+            break;
+        }
+        Stand stand;
+        stand.light = index;
+        stand.at = light;
+        if (steps.stepping) {
+            stand.at.direction_ws = later ? steps.later_ws : steps.earlier_ws;
+        }
+        stand.at = sampledLight(stand.at, sight.sample);
+        if (steps.paired) {
+            stand.sun = later ? SunPosition::later : SunPosition::earlier;
+        }
+        stand.read = !steps.alternate || stand.sun == steps.read;
+        if (recipe.pairs(light)) {
+            stand.slot = later ? 1 - sight.earlier_slot : sight.earlier_slot;
+        }
+        stand.first_frustum = static_cast<std::uint32_t>(frustums_.size());
+        if (recipe.grows()) {
+            addGrown(stand);
+        } else {
+            addDivided(sights, stand);
+        }
+        stand.frustum_count = static_cast<std::uint32_t>(frustums_.size()) - stand.first_frustum;
+        stands_.push_back(stand);
+    }
+}
+
+void Frustums::addGrown(const Stand& stand)
+{
+    std::uint32_t tenant = first_tenants_[stand.light];
+    for (const GrownFrustum& one : multi_.frustumsOf(stand.light)) {
+        frustums_.push_back({one.slice, multi_.receiversOf(one), one.strength, tenant++, 0, one.side, 0});
+    }
+}
+
+void Frustums::addDivided(const Sights& sights, const Stand& stand)
+{
+    const Setup& setup = sights.setups()[stand.at.options];
+    const Recipe& recipe = setup.recipe;
+    // A recipe with maps that predicts nothing has one. NOLINTNEXTLINE(clang-analyzer-core.uninitialized.UndefReturn)
+    const AutoDecision* const decision = recipe.predicts() ? &chooser_.decisionOf(recipe, stand.light) : nullptr;
+    const PartitionTraits& partition = decision != nullptr ? *decision->partition : *recipe.partition;
+    slices_.clear();
+    partition.divide({stand.at, setup.camera, recipe.options.cascades}, slices_);
+    if (const std::uint32_t segments = recipe.resolved.segments(); segments > 1) {
+        addSegments(sights, stand, segments);
+    }
+    for (std::uint32_t i = 0; i < slices_.size(); ++i) {
+        frustums_.push_back({slices_[i], sights.receiversOf(stand.light),
+                             recipe.searchesWarp() ? decision->strengths[i] : 1.0, first_tenants_[stand.light], i, 0,
+                             partition.fits_on_gpu ? recipe.mapsOf(partition) : 0});
+    }
+}
+
+/// Of the one slice that there is.
+void Frustums::addSegments(const Sights& sights, const Stand& stand, std::uint32_t count)
+{
+    const Setup& setup = sights.setups()[stand.at.options];
+    const std::span receivers = sights.receiversOf(stand.light);
+    const Slice whole = slices_.front();
+    slices_.clear();
+    planner_.divideTsm({sights.frame(), setup.recipe, setup.camera, receivers, receivers, stand.at, whole,
+                        wishes_[first_tenants_[stand.light]].side},
+                       count, setup.recipe.options.cascades.blend, slices_);
+}
+
+} // namespace gnomon

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// The second step of a plan: how each light is divided among frustums, and what maps they want. One table has them all,
+// whatever divided them.
+#pragma once
+
+#include "auto/auto_choice.h"
+#include "partition/multi.h"
+#include "plan/sights.h"
+#include "store/map_store.h"
+
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+/// A row of the table.
+struct LightFrustum {
+    Slice slice;
+    std::span<const std::uint32_t> receivers;
+    double strength = 1.0;          // of the warp, with fit auto
+    std::uint32_t tenant = 0;       // whose maps it has: index of Frustums::keys()
+    std::uint32_t number = 0;       // which of them
+    std::uint32_t wanted_side = 0;  // texels for which slice.texel counts; 0: for as many as the map gets
+    std::uint32_t gpu_cascades = 0; // its map is one that the GPU fits so many to parts of; 0: it is fitted here
+};
+
+/// One position that a light shines from, and its frustums.
+struct Stand {
+    std::uint32_t light = 0; // index into Frame::lights
+    Light at;                // the light, shining from there
+    SunPosition sun = SunPosition::only;
+    std::uint32_t slot = 0; // which of its light's maps it has
+    bool read = true;       // in this frame
+    std::uint32_t first_frustum = 0;
+    std::uint32_t frustum_count = 0;
+};
+
+class Frustums {
+public:
+    /// Finds what lights want that may have maps, and says in the plan what was chosen for them.
+    void divide(const Sights& sights, Plan& plan);
+    /// Then some may have to wait that would be divided otherwise.
+    [[nodiscard]] bool differs(std::uint32_t light) const { return multi_.differs(light); }
+    /// It is divided as in the frame before.
+    void keepDivision(const Sights& sights, std::uint32_t light);
+    /// The next frame finds what the frame before left of it.
+    void keepMemory(std::uint32_t light) { multi_.restoreMemory(light); }
+    /// Of all the maps that a light wants.
+    [[nodiscard]] std::uint64_t texelsWanted(const Sights& sights, std::uint32_t light) const;
+    /// Fills the table.
+    void list(const Sights& sights, const Plan& plan);
+    /// Nothing is known of the frame before.
+    void forget();
+
+    // The table, until the next frame.
+
+    /// Whose maps they are: a light, or of partition multi each of its frustums, after each other.
+    [[nodiscard]] std::span<const std::uint64_t> keys() const { return keys_; }
+    /// By tenant.
+    [[nodiscard]] std::span<MapWish> wishes() { return wishes_; }
+    [[nodiscard]] std::span<const MapWish> wishes() const { return wishes_; }
+    /// A light's tenants are from the one to before the other.
+    [[nodiscard]] std::uint32_t firstTenant(std::uint32_t light) const { return first_tenants_[light]; }
+    [[nodiscard]] std::uint32_t endTenant(std::uint32_t light) const { return first_tenants_[light + 1]; }
+    /// Its tenant's share of what the light is worth: 0 .. 1.
+    [[nodiscard]] double worthOf(std::uint32_t light, std::uint32_t tenant) const;
+    /// None of a light that cannot have any.
+    [[nodiscard]] std::span<const Stand> standsOf(std::uint32_t light) const;
+    [[nodiscard]] std::span<const LightFrustum> of(const Stand& stand) const
+    {
+        return std::span(frustums_).subspan(stand.first_frustum, stand.frustum_count);
+    }
+
+private:
+    [[nodiscard]] static MultiPartition::Input inputOf(const Sights& sights, std::uint32_t index, const Light& light);
+    [[nodiscard]] MapWish decide(const Sights& sights, std::uint32_t index, LightPlan& planned);
+    [[nodiscard]] MapWish wishOf(const Sights& sights, const Light& light, const GrownFrustum& frustum) const;
+    void listTenants(const Sights& sights);
+    void addStands(const Sights& sights, std::uint32_t index, const SunSteps& steps);
+    void addGrown(const Stand& stand);
+    void addDivided(const Sights& sights, const Stand& stand);
+    void addSegments(const Sights& sights, const Stand& stand, std::uint32_t count);
+
+    AutoChooser chooser_;
+    MultiPartition multi_;
+    std::vector<MapWish> own_wishes_; // by light, of those that `multi_` does not divide
+    std::vector<std::uint64_t> keys_;
+    std::vector<MapWish> wishes_;
+    std::vector<std::uint32_t> first_tenants_; // by light, and one past the last
+    std::vector<std::uint32_t> first_stands_;  // by light, and one past the last
+    std::vector<Stand> stands_;
+    std::vector<LightFrustum> frustums_;
+    // Scratch.
+    FrustumPlanner planner_;
+    std::vector<Slice> slices_;
+};
+
+} // namespace gnomon

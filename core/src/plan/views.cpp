@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/views.h"
+
+#include "light_reach.h"
+#include "plan/schedule.h"
+
+#include <gnomon/converge.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace gnomon {
+namespace {
+
+/// Of what becomes of a light's frustums, the highest is what is said of the light.
+int rank(OutcomeKind kind)
+{
+    constexpr OutcomeKind kUpwards[] = {OutcomeKind::no_receiver, OutcomeKind::no_caster, OutcomeKind::degenerate,
+                                        OutcomeKind::ok, OutcomeKind::fallback};
+    return static_cast<int>(std::find(std::begin(kUpwards), std::end(kUpwards), kind) - std::begin(kUpwards));
+}
+
+} // namespace
+
+void Views::fit(const Sights& sights, const Frustums& frustums, const Places& places, Schedule& schedule, Plan& plan)
+{
+    plan.views.clear();
+    plan.casters.clear();
+    plan.object_ids.clear();
+    plan.object_bounds.clear();
+    plan.object_pieces.clear();
+    maps_.clear();
+    const Step step{sights, frustums, places, schedule, plan};
+    for (std::uint32_t light = 0; light < plan.lights.size(); ++light) {
+        fitLight(step, light);
+    }
+}
+
+void Views::fitLight(const Step& step, std::uint32_t index)
+{
+    LightPlan& planned = step.plan.lights[index];
+    const Recipe& recipe = step.setupOf(index).recipe;
+    planned.first_view = static_cast<std::uint32_t>(step.plan.views.size());
+    if (!recipe.hasMaps()) {
+        listVolumes(step, index);
+        return;
+    }
+    if (step.schedule.isKeptBack(index)) {
+        return; // its views are those of the plan before
+    }
+    if (planned.outcome.kind == OutcomeKind::ok) {
+        planned.outcome = prospect(step, index);
+    }
+    if (planned.outcome.kind == OutcomeKind::ok && recipe.filter->ids) {
+        planned.outcome = handOutIds(step, index);
+    }
+    if (planned.outcome.kind == OutcomeKind::ok) {
+        planned.outcome = fitStands(step, index);
+    }
+    planned.view_count = static_cast<std::uint32_t>(step.plan.views.size()) - planned.first_view;
+}
+
+/// Can a light that may have maps have any in this frame?
+Outcome Views::prospect(const Step& step, std::uint32_t index)
+{
+    const Setup& setup = step.setupOf(index);
+    if (setup.recipe.hasMaps() && !step.places.hasRoom(step.frustums, index, setup.recipe)) {
+        return {OutcomeKind::atlas_full, "the atlas has no layer left for this light"};
+    }
+    if (setup.camera.outcome.kind != OutcomeKind::ok) {
+        return setup.camera.outcome;
+    }
+    const ObjectSet& objects = *step.sights.frame().objects;
+    if (setup.receivers.empty()) {
+        return {
+            OutcomeKind::no_receiver,
+            objects.nowhere() > 0
+                ? "the camera sees nothing that receives shadow, and some objects are nowhere (ObjectSet::nowhere())"
+                : "the camera sees nothing that receives shadow"};
+    }
+    if (setup.recipe.options.technique.filter == Filter::pcss) {
+        const Outcome width = widthForPcss(step.sights.frame().lights[index], objects);
+        if (width.kind != OutcomeKind::ok) {
+            return width;
+        }
+    }
+    return {};
+}
+
+/// A frustum without receivers or casters needs no map; the light has one when any frustum does.
+Outcome Views::fitStands(const Step& step, std::uint32_t index)
+{
+    step.plan.lights[index].sample = step.sights.lights()[index].sample;
+    std::optional<Outcome> best;
+    for (const Stand& stand : step.frustums.standsOf(index)) {
+        if (stand.frustum_count == 0 && !best) {
+            best = {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
+        }
+        for (const LightFrustum& frustum : step.frustums.of(stand)) {
+            const Outcome outcome = step.schedule.hasOwnTurn(stand, frustum.slice) ? fitWide(step, stand, frustum)
+                                                                                   : fitFrustum(step, stand, frustum);
+            if (!best || rank(outcome.kind) > rank(best->kind)) {
+                best = outcome;
+            }
+        }
+    }
+    return *best;
+}
+
+Outcome Views::fitFrustum(const Step& step, const Stand& stand, const LightFrustum& frustum)
+{
+    const Setup& setup = step.setupOf(stand.light);
+    const Recipe& recipe = setup.recipe;
+    const bool on_gpu = frustum.gpu_cascades > 0; // whose views have a grid of their own
+    const glm::dvec2 grid_move =
+        recipe.converges() ? convergeSample(step.sights.converging()).grid_texels : glm::dvec2(0.0);
+    const MapStore& store = step.places.store();
+    const MapPlace& place = store.placeOf(frustum.tenant, stand.slot, frustum.number);
+    Slice slice = frustum.slice;
+    if (frustum.wanted_side > 0) { // where room is scarce its map is smaller than it asked for
+        slice.texel *= static_cast<double>(frustum.wanted_side) / store.sideOf(frustum.tenant);
+    }
+    View fitted;
+    fitted.light = stand.light;
+    fitted.sun = stand.sun;
+    fitted.grid_move_texels = on_gpu ? grid_move : glm::dvec2(0.0);
+    const Outcome outcome =
+        planner_.plan({step.sights.frame(), recipe, setup.camera, frustum.receivers,
+                       recipe.steady() ? step.sights.allReceivers() : frustum.receivers, stand.at, slice,
+                       place.tile.width, frustum.strength, on_gpu ? glm::dvec2(0.0) : grid_move, step.sights.scene_ws(),
+                       setup.layers, recipe.warps() ? &setup.sight : nullptr},
+                      fitted, step.plan.casters);
+    if (!outcome.hasMap()) {
+        return outcome;
+    }
+    if (!on_gpu) {
+        addView(step, stand, place, fitted);
+        return outcome;
+    }
+    // A base map: one view for each cascade that the GPU will fit to a part of it.
+    for (fitted.gpu_cascade = 0; fitted.gpu_cascade < frustum.gpu_cascades; ++fitted.gpu_cascade) {
+        addView(step, stand, store.placeOf(frustum.tenant, stand.slot, fitted.gpu_cascade), fitted);
+    }
+    return outcome;
+}
+
+/// With room around what is seen, so that the map may wait while the camera moves.
+Outcome Views::fitWide(const Step& step, const Stand& stand, const LightFrustum& frustum)
+{
+    const Setup& setup = step.setupOf(stand.light);
+    const Recipe& recipe = setup.recipe;
+    const MapPlace& place = step.places.store().placeOf(frustum.tenant, stand.slot, frustum.number);
+    const WideTurn turn = step.schedule.wideTurn(step.sights, step.places, stand, frustum);
+    if (turn.outcome.kind != OutcomeKind::ok) {
+        return turn.outcome;
+    }
+    const std::span<const std::uint32_t> levellers =
+        recipe.steady() ? step.sights.allReceivers() : std::span<const std::uint32_t>(turn.seen->receivers);
+    const Slice wide = widened(frustum.slice, setup.camera, recipe.options.cascades.room);
+    View fitted;
+    fitted.light = stand.light;
+    const Outcome outcome = planner_.plan({.frame = turn.seen->frame,
+                                           .recipe = recipe,
+                                           .camera = turn.seen->camera,
+                                           .receivers = turn.seen->receivers,
+                                           .levellers = levellers,
+                                           .light = stand.at,
+                                           .slice = wide,
+                                           .map_size = place.tile.width,
+                                           .strength = frustum.strength,
+                                           .scene_ws = step.sights.scene_ws(),
+                                           .layers = setup.layers,
+                                           .sight = recipe.warps() ? &setup.sight : nullptr,
+                                           .ground = turn.ground},
+                                          fitted, step.plan.casters);
+    if (!outcome.hasMap()) {
+        return outcome;
+    }
+    fitted.slice = frustum.slice.depth; // pixels choose by what is seen
+    addView(step, stand, place, fitted);
+    maps_.back().own_turn = true;
+    maps_.back().may_wait = turn.may_wait;
+    return outcome;
+}
+
+/// Says where a view's map is. What of it has to be drawn is said when all views are known.
+void Views::addView(const Step& step, const Stand& stand, const MapPlace& place, const View& fitted)
+{
+    View& view = step.plan.views.emplace_back(fitted);
+    view.map = place.map;
+    view.tile = place.tile;
+    view.part = place.part;
+    view.ids_key = idsKey(step.plan, view);
+    maps_.push_back({&place, stand.read});
+}
+
+} // namespace gnomon
