@@ -69,8 +69,11 @@ def shown(value) -> str:
     return str(value)
 
 
+SCENE_TAKERS = ["render", "view", "compare", "plan", "bench"]
+
+
 def option_table(settings: dict[str, dict]) -> str:
-    """The options as a table, in the order of their declaration."""
+    """The options as a table, in the order of their declaration. An option of all subcommands that take a scene is for `scenes`."""
     lines = ["| option | default | what it is | for |", "|---|---|---|---|"]
     for key, setting in settings.items():
         name = f"`--{key}`" if setting.get("option", True) else f"`--set {key}=`"
@@ -83,7 +86,9 @@ def option_table(settings: dict[str, dict]) -> str:
         if "used_with" in setting:
             facts.append("with " + setting["used_with"])
         what = setting["doc"] + (f" ({'; '.join(facts)})" if facts else "")
-        lines.append(f"| {name} | {default} | {what.replace('|', chr(92) + '|')} | {', '.join(setting['subcommands'])} |")
+        takers = setting["subcommands"]
+        takers = takers if takers[:len(SCENE_TAKERS)] != SCENE_TAKERS else ["scenes", *takers[len(SCENE_TAKERS):]]
+        lines.append(f"| {name} | {default} | {what.replace('|', chr(92) + '|')} | {', '.join(takers)} |")
     return "\n".join(lines) + "\n"
 
 

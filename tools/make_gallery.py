@@ -9,7 +9,7 @@ docs/. --only: entries and films whose names hold TEXT, and nothing of the page.
 Debian's ffmpeg.
 
 Of each entry: its picture, the truth of the same view, and a picture of where it fails; by `gnomon compare` its error, and what it
-takes beside the view's plain `hard` in the same run. Every command is on the page.
+takes beside the view's plain `hard` in the same run. The page has the commands, and the words that stand for each view.
 Exit status 1 when a command fails, or a film cannot be made smaller than 1 MB.
 """
 
@@ -101,10 +101,13 @@ class Gallery:
         lines = [f"### `{entry['name']}`", "", f"{about['summary'][0].upper()}{about['summary'][1:]}. [More]({page})", "",
                  "| it | the truth | where it fails |", "|---|---|---|",
                  f"| ![{entry['name']}](gallery/{name}.jpg) | ![traced](gallery/truth-{entry['view']}.jpg) | ![{entry['name']} at its worst](gallery/{name}-fails.jpg) |",
-                 f"| {self.figures(entry)} | | {entry['fails']['words']} |", "", "```"]
-        for words in (self.shown(entry), self.comparison(entry), self.shown(entry["fails"])):
-            lines.append("build/gnomon " + shlex.join(words))
-        return "\n".join([*lines, "```", ""])
+                 f"| {self.figures(entry)} | | {entry['fails']['words']} |", f"| {of(entry)} | | {of(entry['fails'])} |", ""]
+        return "\n".join(lines)
+
+    def views_text(self) -> str:
+        """The views as a table: what stands for their names in the page's commands."""
+        rows = [f"| `{name}` | `{shlex.join([view['scene'], *view['arguments']])}` | `{view['base']}` |" for name, view in self.views.items()]
+        return "\n".join(["## Views", "", "| view | its words | its plain `hard` |", "|---|---|---|", *rows, ""])
 
     def list_of_values(self) -> list[dict]:
         if not hasattr(self, "values"):
@@ -136,6 +139,11 @@ class Gallery:
         """Its part of the page."""
         lines = [f"### {film['words']}", "", f"![{film['words'].replace('`', '')}](films/{film['name']}.png)", "", "```"]
         return "\n".join([*lines, *("build/gnomon " + shlex.join(words) + f" -o out/{film['name']}" for words in self.film_commands(film)), "```", ""])
+
+
+def of(part: dict) -> str:
+    """The view and the technique that a picture shows."""
+    return f"`{part['view']}`, `{' '.join([part['technique'], *part.get('arguments', [])])}`"
 
 
 def encode_small(file: Path, ways: list[tuple], arguments) -> None:
@@ -197,7 +205,7 @@ def main() -> int:
             gallery.film(film)
         if not (options.only or options.films):
             made = [*(f"## {CHOICES[choice]}\n\n" + "\n".join(text) for choice, text in parts.items()),
-                    "## Films\n\n" + "\n".join(gallery.film_text(film) for film in films)]
+                    gallery.views_text(), "## Films\n\n" + "\n".join(gallery.film_text(film) for film in films)]
             page = options.docs / "gallery.md"
             page.write_text(page_with(page.read_text(encoding="utf-8"), "\n".join(made)), encoding="utf-8")
     except Failed as failure:
