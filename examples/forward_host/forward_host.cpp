@@ -131,8 +131,8 @@ public:
           set_(pool.take(d))
     {
     }
-    void fill(const Device& d, const gnomon::Frame& frame, const gnomon::Plan& plan,
-              const gnomon::vulkan::ShadowRenderer& shadows, vk::Sampler sampler)
+    void fill(const Device& d, const gnomon::Plan& plan, const gnomon::vulkan::ShadowRenderer& shadows,
+              vk::Sampler sampler)
     {
         using namespace gnomon;
         const vulkan::ImageRef maps = shadows.maps();
@@ -140,10 +140,10 @@ public:
         const pack::MapImage image{{maps.extent.width, maps.extent.height}, maps.levels};
         const pack::DrawPrecision precision{.sub_pixel_bits = d.gpu.getProperties().limits.subPixelPrecisionBits,
                                             .receivers_from_depth = false}; // forward.frag interpolates its points
-        pack::fillConstants(frame, plan, 0, frame.size_px, image, precision,
+        pack::fillConstants(plan, 0, plan.made_for.size_px, image, precision,
                             *static_cast<shared::GpuConstants*>(constants_.mapped));
-        pack::fillLights(frame, plan, {static_cast<shared::GpuLight*>(lights_.mapped), 2});
-        pack::fillViews(frame, plan, {&image, 1}, {static_cast<shared::GpuView*>(views_.mapped), kMostViews});
+        pack::fillLights(plan, {static_cast<shared::GpuLight*>(lights_.mapped), 2});
+        pack::fillViews(plan, {&image, 1}, {static_cast<shared::GpuView*>(views_.mapped), kMostViews});
         const vk::DescriptorImageInfo map(sampler, maps.view, vk::ImageLayout(maps.layout));
         const std::array<vk::DescriptorBufferInfo, 4> buffers{{{*constants_.buffer, 0, VK_WHOLE_SIZE},
                                                                {*lights_.buffer, 0, VK_WHOLE_SIZE},
@@ -272,8 +272,8 @@ int run(const std::string& folder)
         const vk::raii::CommandBuffer& commands = d.begin(slot);
         const gnomon::Plan& plan = planner.plan(scene.frame);
         shadows.prepare(plan, {}); // without a mask
-        sets[slot].fill(d, scene.frame, plan, shadows, *sampler);
-        shadows.recordMaps(*commands, slot, scene.frame, plan,
+        sets[slot].fill(d, plan, shadows, *sampler);
+        shadows.recordMaps(*commands, slot, plan,
                            [&](const gnomon::vulkan::MapPass& pass) { casters.draw(commands, cube, pass); });
         cube.bind(commands); // recording maps may have bound others
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *forward);

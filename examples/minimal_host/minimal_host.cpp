@@ -156,9 +156,8 @@ int run(const std::string& folder)
         shadows.prepare(plan, kSize);
         casters.beginFrame(slot, plan, {*vertices.buffer, 0, nullptr, 0, *indices.buffer, 0}, scene.world_from_object);
         prepass.record(commands, scene, *vertices.buffer, *indices.buffer);
-        shadows.recordMaps(*commands, slot, scene.frame, plan,
-                           [&](const gnomon::vulkan::MapPass& pass) { casters.draw(pass); });
-        shadows.recordMask(*commands, slot, scene.frame, plan, {kSize, *prepass.depth.view});
+        shadows.recordMaps(*commands, slot, plan, [&](const gnomon::vulkan::MapPass& pass) { casters.draw(pass); });
+        shadows.recordMask(*commands, slot, plan, {kSize, *prepass.depth.view});
         // Here a renderer would shade with shadows.mask(); this one reads the last frame's back.
         const gnomon::vulkan::ImageRef mask = shadows.mask();
         transition(commands, mask.image, vk::ImageAspectFlagBits::eColor, vk::ImageLayout(mask.layout),

@@ -79,7 +79,7 @@ void FrameRenderer::Impl::drawFrame(const scene::State& state, const Eye& eye, c
     describeFrame();
     writeFrameData(lights);
     if (ForwardShadows* const lookup = forwardShadows()) {
-        lookup->describe(slot, frame, *plan, shadows->renderer);
+        lookup->describe(slot, *plan, shadows->renderer);
     }
     record(present);
     now().commands->submit();

@@ -62,8 +62,7 @@ void ForwardShadows::makeSets()
     }
 }
 
-void ForwardShadows::describe(std::uint32_t slot, const Frame& frame, const Plan& plan,
-                              const vulkan::ShadowRenderer& renderer)
+void ForwardShadows::describe(std::uint32_t slot, const Plan& plan, const vulkan::ShadowRenderer& renderer)
 {
     // A renderer has one RenderOptions::shadow for all lights, so its plans have one of Plan::options, and one set of
     // maps serves every light.
@@ -77,16 +76,16 @@ void ForwardShadows::describe(std::uint32_t slot, const Frame& frame, const Plan
     const pack::MapImage image{{maps.extent.width, maps.extent.height}, maps.levels};
     // forward.frag has an orthographic camera's points from gl_FragCoord.z, as a depth buffer would have them.
     const pack::DrawPrecision precision{.sub_pixel_bits = memory_.limits().subPixelPrecisionBits,
-                                        .receivers_from_depth = isOrthographic(frame.camera),
+                                        .receivers_from_depth = isOrthographic(plan.made_for.camera),
                                         .depth_rounding = 0.0F};
-    pack::fillConstants(frame, plan, 0, frame.size_px, image, precision,
+    pack::fillConstants(plan, 0, plan.made_for.size_px, image, precision,
                         *static_cast<shared::GpuConstants*>(now.constants.mapped));
-    pack::fillLights(frame, plan, {static_cast<shared::GpuLight*>(now.lights.mapped), kMaxLights});
+    pack::fillLights(plan, {static_cast<shared::GpuLight*>(now.lights.mapped), kMaxLights});
     const std::size_t objects = std::max<std::size_t>(pack::objectVectorCount(plan), 1);
     memory_.grow(now.objects, objects * sizeof(glm::vec4), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, kPurpose);
-    pack::fillObjects(frame, plan, {static_cast<glm::vec4*>(now.objects.mapped), objects});
+    pack::fillObjects(plan, {static_cast<glm::vec4*>(now.objects.mapped), objects});
     const std::span into(static_cast<shared::GpuView*>(now.views.mapped), room);
-    pack::fillViews(frame, plan, {&image, 1}, into);
+    pack::fillViews(plan, {&image, 1}, into);
     renderer.placeTints(plan, into);
     writeSet(now, renderer);
 }

@@ -21,7 +21,7 @@ public:
 
     /// For the frame that is recorded next, after ShadowRenderer::prepare(). The GPU has finished the slot's last
     /// frame. Precondition: the plan has views. Throws Error.
-    void describe(std::uint32_t slot, const Frame& frame, const Plan& plan, const vulkan::ShadowRenderer& renderer);
+    void describe(std::uint32_t slot, const Plan& plan, const vulkan::ShadowRenderer& renderer);
     /// Outside of rendering, after ShadowRenderer::recordBounds().
     void recordViews(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan,
                      vulkan::ShadowRenderer& renderer) const;

@@ -118,7 +118,7 @@ void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
         };
     }
     if (!frame_lights.empty()) {
-        renderer.recordMask(cmd, slot, frame, *plan, inputs, &profiler);
+        renderer.recordMask(cmd, slot, *plan, inputs, &profiler);
     }
     if (hasTiles()) {
         shadows->tiles->describe(slot, renderer.maskTiles(slot));
@@ -139,7 +139,7 @@ void FrameRenderer::Impl::recordMaps(VkCommandBuffer cmd, const vulkan::MaskInpu
 {
     vulkan::ShadowRenderer& renderer = shadows->renderer;
     vulkan::CasterDrawer& casters = shadows->casters;
-    renderer.recordBounds(cmd, slot, frame, *plan, inputs, &profiler);
+    renderer.recordBounds(cmd, slot, *plan, inputs, &profiler);
     casters.beginFrame(slot, *plan, scene.casterGeometry(), draws.transforms());
     if (shadows->fins) {
         shadows->fins->beginFrame(slot, shadows->volume_meshes->geometry(scene.geometry.positions), draws.transforms());
@@ -149,7 +149,7 @@ void FrameRenderer::Impl::recordMaps(VkCommandBuffer cmd, const vulkan::MaskInpu
         std::optional<vulkan::FinDrawer>& fins = shadows->fins;
         profiler.addDraws(fins && pass.formats.fins ? fins->draw(pass) : shadows->casters.draw(pass));
     };
-    renderer.recordMaps(cmd, slot, frame, *plan, draw, &profiler);
+    renderer.recordMaps(cmd, slot, *plan, draw, &profiler);
     if (const ForwardShadows* const lookup = forwardShadows()) {
         lookup->recordViews(cmd, slot, *plan, renderer);
     }

@@ -21,10 +21,10 @@ bool isFirst(const View& view)
 }
 
 /// The light that the base map `view`, the plan's view `index`, belongs to.
-shared::GpuCascadeLight describe(const Frame& frame, const Plan& plan, std::uint32_t index, glm::uvec2 screen_px)
+shared::GpuCascadeLight describe(const Plan& plan, std::uint32_t index, glm::uvec2 screen_px)
 {
     const View& view = plan.views[index];
-    const Camera& camera = frame.camera;
+    const Camera& camera = plan.made_for.camera;
     const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), camera.eye_ws);
     const glm::dmat4 eye_from_ndc = glm::inverse(clipFromWorld(camera) * world_from_eye);
     const glm::dmat4 base_from_eye = view.clip_from_world * world_from_eye;
@@ -70,8 +70,7 @@ std::uint32_t cascadeLightCount(const Plan& plan)
     return static_cast<std::uint32_t>(std::ranges::count_if(plan.views, isFirst));
 }
 
-std::uint32_t fillCascadeLights(const Frame& frame, const Plan& plan, glm::uvec2 screen_px,
-                                std::span<shared::GpuCascadeLight> out)
+std::uint32_t fillCascadeLights(const Plan& plan, glm::uvec2 screen_px, std::span<shared::GpuCascadeLight> out)
 {
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
@@ -80,7 +79,7 @@ std::uint32_t fillCascadeLights(const Frame& frame, const Plan& plan, glm::uvec2
                 throw Error("describe cascades to shaders", "there is no room for the plan's lights",
                             "give room for cascadeLightCount()");
             }
-            out[count++] = describe(frame, plan, i, screen_px);
+            out[count++] = describe(plan, i, screen_px);
         }
     }
     return count;

@@ -124,16 +124,16 @@ void giveChannels(std::span<TileLight> lights, std::uint32_t channels)
     }
 }
 
-void check(const Frame& frame, const Plan& plan, const CompactMaskRule& rule)
+void check(const Plan& plan, const CompactMaskRule& rule)
 {
     constexpr const char* kTried = "list the lights of a compact mask";
     if (const char* const wrong = wrongOf(rule)) {
         throw Error(kTried, wrong);
     }
-    if (frame.lights.size() != plan.lights.size()) {
-        throw Error(kTried, "the frame has others than the plan", "give the frame that was planned");
+    if (plan.made_for.lights.size() != plan.lights.size()) {
+        throw Error(kTried, "the plan does not say what they are (Plan::made_for)");
     }
-    if (frame.lights.size() > kMostTileLights) {
+    if (plan.lights.size() > kMostTileLights) {
         throw Error(kTried, "there are more than 65535 lights");
     }
 }
@@ -149,18 +149,18 @@ const char* wrongOf(const CompactMaskRule& rule)
                                                                           : "a tile has 16 or 32 pixels on a side";
 }
 
-void listCompactMask(const Frame& frame, const Plan& plan, const CompactMaskRule& rule, glm::uvec2 size_px,
-                     LightLists& lists, CompactMask& out)
+void listCompactMask(const Plan& plan, const CompactMaskRule& rule, glm::uvec2 size_px, LightLists& lists,
+                     CompactMask& out)
 {
-    check(frame, plan, rule);
-    const Aabb scene_ws = frame.objects != nullptr ? frame.objects->bounds() : Aabb{};
-    listLights(frame, scene_ws, size_px, rule.channels == 0 ? 0 : rule.side_px, lists);
+    check(plan, rule);
+    const PlannedFrame& from = plan.made_for;
+    listLights(from.lights, from.camera, from.scene_ws, size_px, rule.channels == 0 ? 0 : rule.side_px, lists);
     out.rule = rule;
     out.tiles = lists.tiles;
     out.first = lists.first;
     out.masked.assign(out.first.size() - 1, 0);
     out.lights.resize(lists.lights.size());
-    const Sights sights(frame.camera, size_px);
+    const Sights sights(from.camera, size_px);
     for (std::size_t tile = 0; tile < out.masked.size(); ++tile) {
         const glm::dvec2 place(static_cast<double>(tile % out.tiles.x), static_cast<double>(tile / out.tiles.x));
         const SightLine line = sights.through((place + 0.5) * static_cast<double>(rule.side_px));
@@ -172,7 +172,7 @@ void listCompactMask(const Frame& frame, const Plan& plan, const CompactMaskRule
                 out.lights[--end] = {light, kNoMaskChannel, 1.0F};
                 continue;
             }
-            const Source source = sourceOf(frame.lights[light], scene_ws);
+            const Source source = sourceOf(from.lights[light], from.scene_ws);
             const double importance = importanceOf(source, distance2(line, source.position_ws));
             out.lights[begin++] = {light, 0, static_cast<float>(std::min(importance, 1e30))};
         }

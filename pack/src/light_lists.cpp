@@ -130,12 +130,11 @@ namespace {
 
 /// Calls `each(tile, light)` for every tile of each light's bounds.
 template <class Each>
-void forTiles(const Frame& frame, const Aabb& scene_bounds_ws, glm::uvec2 size_px, const LightLists& lists,
-              const Each& each)
+void forTiles(std::span<const Light> lights, const Camera& camera, const Aabb& scene_bounds_ws, glm::uvec2 size_px,
+              const LightLists& lists, const Each& each)
 {
-    for (std::uint32_t i = 0; i < frame.lights.size(); ++i) {
-        const Light& light = frame.lights[i];
-        const ScreenBounds bounds = litPixels(light, frame.camera, scene_bounds_ws, size_px);
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        const ScreenBounds bounds = litPixels(lights[i], camera, scene_bounds_ws, size_px);
         if (bounds.empty()) {
             continue;
         }
@@ -149,13 +148,8 @@ void forTiles(const Frame& frame, const Aabb& scene_bounds_ws, glm::uvec2 size_p
 
 } // namespace
 
-void listLights(const Frame& frame, const Aabb& scene_bounds_ws, std::uint32_t side_px, LightLists& out)
-{
-    listLights(frame, scene_bounds_ws, frame.size_px, side_px, out);
-}
-
-void listLights(const Frame& frame, const Aabb& scene_bounds_ws, glm::uvec2 size_px, std::uint32_t side_px,
-                LightLists& out)
+void listLights(std::span<const Light> lights, const Camera& camera, const Aabb& scene_bounds_ws, glm::uvec2 size_px,
+                std::uint32_t side_px, LightLists& out)
 {
     out.side_px = side_px;
     if (side_px == 0 || size_px.x == 0 || size_px.y == 0) {
@@ -168,12 +162,13 @@ void listLights(const Frame& frame, const Aabb& scene_bounds_ws, glm::uvec2 size
     const std::size_t tiles = std::size_t{out.tiles.x} * out.tiles.y;
     // Counted first; then `first` walks on while lights are put in, and is moved back by one tile at the end.
     out.first.assign(tiles + 1, 0);
-    forTiles(frame, scene_bounds_ws, size_px, out, [&](std::size_t tile, std::uint32_t) { ++out.first[tile + 1]; });
+    forTiles(lights, camera, scene_bounds_ws, size_px, out,
+             [&](std::size_t tile, std::uint32_t) { ++out.first[tile + 1]; });
     for (std::size_t i = 0; i < tiles; ++i) {
         out.first[i + 1] += out.first[i];
     }
     out.lights.resize(out.first[tiles]);
-    forTiles(frame, scene_bounds_ws, size_px, out,
+    forTiles(lights, camera, scene_bounds_ws, size_px, out,
              [&](std::size_t tile, std::uint32_t light) { out.lights[out.first[tile]++] = light; });
     for (std::size_t i = tiles; i > 0; --i) {
         out.first[i] = out.first[i - 1];

@@ -19,6 +19,6 @@ struct ShownViews {
 /// GpuLight::steps of a light.
 [[nodiscard]] glm::vec4 stepRule(const SunSteps& steps);
 /// Light `index` of the frame. A light of which nothing is shown is left as it is.
-void fillLight(const Frame& frame, const Plan& plan, std::size_t index, SunShown shown, shared::GpuLight& out);
+void fillLight(const Plan& plan, std::size_t index, SunShown shown, shared::GpuLight& out);
 
 } // namespace gnomon::pack

@@ -193,15 +193,16 @@ bool mayHaveBands(const Plan& plan)
            std::ranges::any_of(plan.lights, [](const LightPlan& light) { return light.steps.band > 0.0; });
 }
 
-// Where the lights of one layer reach, by mask channel. `frame` null: everywhere.
-LayerReach reachOf(const Frame* frame, const Plan& plan, const Aabb& scene_ws, std::uint32_t layer, glm::uvec2 size_px)
+// Where the lights of one layer reach, by mask channel. Of a light that is not known: everywhere.
+LayerReach reachOf(const Plan& plan, std::uint32_t layer, glm::uvec2 size_px)
 {
     LayerReach reach;
+    const PlannedFrame& from = plan.made_for;
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
         const LightPlan& light = plan.lights[i];
         if (light.mask_layer == layer && light.outcome.hasMap()) {
-            const bool known = frame != nullptr && i < frame->lights.size();
-            reach.add(maskChannelsOf(light), known ? litPixels(frame->lights[i], frame->camera, scene_ws, size_px)
+            const bool known = i < from.lights.size();
+            reach.add(maskChannelsOf(light), known ? litPixels(from.lights[i], from.camera, from.scene_ws, size_px)
                                                    : ScreenBounds{0, 0, size_px.x, size_px.y});
         }
     }
@@ -230,27 +231,6 @@ void listStrip(const Plan& plan, std::uint32_t layer, const Strip& strip, const 
     }
     for (std::size_t i = first_draw; i < out.size(); ++i) {
         out[i].shares = drawn > 1;
-    }
-}
-
-void listDraws(const Frame* frame, const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out)
-{
-    out.clear();
-    const Aabb scene_ws = frame != nullptr && frame->objects != nullptr ? frame->objects->bounds() : Aabb{};
-    const std::uint32_t layers = std::max(plan.mask_layers, 1U);
-    std::uint32_t next = layers * shared::kLightsPerLayer;
-    for (std::uint32_t layer = 0; layer < layers; ++layer) {
-        const Strips strips = stripsOf(plan, layer, size_px.x);
-        const LayerReach reach = reachOf(frame, plan, scene_ws, layer, size_px);
-        for (const Strip& strip : strips) {
-            std::uint32_t first_light = layer * shared::kLightsPerLayer;
-            if (strips.count > 1) { // of this strip alone
-                first_light = next;
-                next += shared::kLightsPerLayer;
-            }
-            const ReachCells cells(reach, {strip.begin, 0, strip.end, size_px.y});
-            listStrip(plan, layer, strip, cells, first_light, out);
-        }
     }
 }
 
@@ -287,12 +267,22 @@ ShownViews shownViews(const Plan& plan, const LightPlan& light, SunShown shown)
 
 void listMaskDraws(const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out)
 {
-    listDraws(nullptr, plan, size_px, out);
-}
-
-void listMaskDraws(const Frame& frame, const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out)
-{
-    listDraws(&frame, plan, size_px, out);
+    out.clear();
+    const std::uint32_t layers = std::max(plan.mask_layers, 1U);
+    std::uint32_t next = layers * shared::kLightsPerLayer;
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+        const Strips strips = stripsOf(plan, layer, size_px.x);
+        const LayerReach reach = reachOf(plan, layer, size_px);
+        for (const Strip& strip : strips) {
+            std::uint32_t first_light = layer * shared::kLightsPerLayer;
+            if (strips.count > 1) { // of this strip alone
+                first_light = next;
+                next += shared::kLightsPerLayer;
+            }
+            const ReachCells cells(reach, {strip.begin, 0, strip.end, size_px.y});
+            listStrip(plan, layer, strip, cells, first_light, out);
+        }
+    }
 }
 
 ScreenBounds halfTexels(const ScreenBounds& pixels, glm::uvec2 size_px)
@@ -316,12 +306,10 @@ std::uint32_t maskLightCount(const Plan& plan)
     return std::max(plan.mask_layers, 1U) * shared::kLightsPerLayer * (mayHaveBands(plan) ? 1 + Strips::kMost : 1U);
 }
 
-void fillMaskLights(const Frame& frame, const Plan& plan, std::span<const MaskDraw> draws,
-                    std::span<shared::GpuLight> lights)
+void fillMaskLights(const Plan& plan, std::span<const MaskDraw> draws, std::span<shared::GpuLight> lights)
 {
-    if (frame.lights.size() != plan.lights.size()) {
-        throw Error("describe lights to the mask pass", "the frame has others than the plan",
-                    "give the frame that was planned");
+    if (plan.made_for.lights.size() != plan.lights.size()) {
+        throw Error("describe lights to the mask pass", "the plan does not say what they are (Plan::made_for)");
     }
     std::ranges::fill(lights, shared::GpuLight{});
     std::uint32_t place = 0;
@@ -340,7 +328,7 @@ void fillMaskLights(const Frame& frame, const Plan& plan, std::span<const MaskDr
             const std::uint32_t channels = maskChannelsOf(light) & wanted;
             for (std::uint32_t channel = 0; light.mask_layer == draw.layer && channels >> channel != 0; ++channel) {
                 if ((channels >> channel & 1U) != 0) {
-                    fillLight(frame, plan, i, draw.shown[light.mask_channel], lights[draw.first_light + channel]);
+                    fillLight(plan, i, draw.shown[light.mask_channel], lights[draw.first_light + channel]);
                 }
             }
         }

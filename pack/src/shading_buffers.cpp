@@ -101,14 +101,14 @@ std::uint32_t firstIdVector(const Plan& plan, const LightPlan& light)
 
 } // namespace
 
-void fillLight(const Frame& frame, const Plan& plan, std::size_t index, SunShown shown, shared::GpuLight& out)
+void fillLight(const Plan& plan, std::size_t index, SunShown shown, shared::GpuLight& out)
 {
     const LightPlan& light = plan.lights[index];
     const ShownViews views = shownViews(plan, light, shown);
     if (views.count == 0) {
         return;
     }
-    Light from = frame.lights[index];
+    Light from = plan.made_for.lights[index];
     if (light.sample.joined) {
         from.position_ws = light.sample.position_ws;
         from.direction_ws = light.sample.direction_ws;
@@ -117,7 +117,7 @@ void fillLight(const Frame& frame, const Plan& plan, std::size_t index, SunShown
             from.radius_m = 0.0;
         }
     }
-    placeLight(from, frame.camera.eye_ws, out);
+    placeLight(from, plan.made_for.camera.eye_ws, out);
     out.views = {views.first, views.count, views.later_first, views.later_count};
     out.steps = stepRule(light.steps);
     out.options.x = light.options;
@@ -128,28 +128,29 @@ void fillLight(const Frame& frame, const Plan& plan, std::size_t index, SunShown
     }
 }
 
-void fillLights(const Frame& frame, const Plan& plan, std::span<shared::GpuLight> lights)
+void fillLights(const Plan& plan, std::span<shared::GpuLight> lights)
 {
-    if (lights.size() < plan.lights.size() || frame.lights.size() != plan.lights.size()) {
-        throw Error("describe lights to shaders", "there is no room for the plan's lights, or the frame has others",
-                    "give room for plan.lights.size(), and the frame that was planned");
+    if (lights.size() < plan.lights.size() || plan.made_for.lights.size() != plan.lights.size()) {
+        throw Error("describe lights to shaders",
+                    "there is no room for the plan's lights, or the plan does not say what they are (Plan::made_for)",
+                    "give room for plan.lights.size()");
     }
     std::fill(lights.begin(), lights.end(), shared::GpuLight{});
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
         const SunSteps& steps = plan.lights[i].steps;
         // By turns, the maps of the other position are not those of its views.
         const SunShown read = steps.read == SunPosition::later ? SunShown::later : SunShown::earlier;
-        fillLight(frame, plan, i, steps.paired && steps.alternate ? read : SunShown::all, lights[i]);
+        fillLight(plan, i, steps.paired && steps.alternate ? read : SunShown::all, lights[i]);
     }
 }
 
-void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> maps, std::span<shared::GpuView> views)
+void fillViews(const Plan& plan, std::span<const MapImage> maps, std::span<shared::GpuView> views)
 {
     if (plan.options == nullptr || views.size() < plan.views.size() || maps.size() < plan.options->size()) {
         throw Error("describe views to shaders", "there is no room for the plan's views, or too few maps are given",
                     "give room for plan.views.size(), and one map for each of plan.options");
     }
-    const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), frame.camera.eye_ws);
+    const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), plan.made_for.camera.eye_ws);
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
         const View& view = plan.views[i];
         const ResolvedOptions& options = optionsOf(plan, view);
@@ -173,8 +174,8 @@ void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> m
     }
 }
 
-void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t index, glm::uvec2 screen_px,
-                   const MapImage& maps, const DrawPrecision& precision, shared::GpuConstants& out)
+void fillConstants(const Plan& plan, std::uint32_t index, glm::uvec2 screen_px, const MapImage& maps,
+                   const DrawPrecision& precision, shared::GpuConstants& out)
 {
     if (plan.options == nullptr || index >= plan.options->size()) {
         throw Error("describe a frame to shaders", "the plan has no options of that index",
@@ -183,7 +184,7 @@ void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t index, gl
     if (screen_px.x == 0 || screen_px.y == 0 || maps.size_px.x == 0 || maps.size_px.y == 0) {
         throw Error("describe a frame to shaders", "the picture or the maps have no pixels", "give their sizes");
     }
-    const Camera& camera = frame.camera;
+    const Camera& camera = plan.made_for.camera;
     const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), camera.eye_ws);
     const glm::dmat4 clip_from_eye = clipFromWorld(camera) * world_from_eye;
     const glm::dmat4 eye_from_ndc = glm::inverse(clip_from_eye);
@@ -217,7 +218,7 @@ std::size_t objectVectorCount(const Plan& plan)
     return objects == 0 ? 0 : 2 * objects + plan.object_ids.size() / objects * idVectors(plan);
 }
 
-void fillObjects(const Frame& frame, const Plan& plan, std::span<glm::vec4> out)
+void fillObjects(const Plan& plan, std::span<glm::vec4> out)
 {
     if (out.size() < objectVectorCount(plan)) {
         throw Error("describe objects to shaders", "there is no room for the plan's objects and ids",
@@ -228,7 +229,7 @@ void fillObjects(const Frame& frame, const Plan& plan, std::span<glm::vec4> out)
         const bool is_somewhere = !box.empty();
         const glm::dvec3 low(is_somewhere ? box.min : glm::vec3(0.0F));
         const glm::dvec3 high(is_somewhere ? box.max : glm::vec3(0.0F));
-        out[next++] = glm::dvec4(0.5 * (low + high) - frame.camera.eye_ws, 0.0);
+        out[next++] = glm::dvec4(0.5 * (low + high) - plan.made_for.camera.eye_ws, 0.0);
         out[next++] = glm::dvec4(0.5 * (high - low), 0.0);
     }
     for (std::uint32_t light = 0; light < plan.lights.size(); ++light) {

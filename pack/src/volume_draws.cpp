@@ -38,16 +38,16 @@ void boundDepths(const Light& light, const Aabb& scene_ws, const Camera& camera,
 
 } // namespace
 
-void listVolumeDraws(const Frame& frame, const Plan& plan, glm::uvec2 size_px, std::vector<VolumeDraw>& out)
+void listVolumeDraws(const Plan& plan, glm::uvec2 size_px, std::vector<VolumeDraw>& out)
 {
     out.clear();
-    const Aabb scene_ws = frame.objects != nullptr ? frame.objects->bounds() : Aabb{};
-    const std::size_t count = std::min(plan.lights.size(), frame.lights.size());
+    const PlannedFrame& from = plan.made_for;
+    const std::size_t count = std::min(plan.lights.size(), from.lights.size());
     for (std::uint32_t i = 0; i < count; ++i) {
         const LightPlan& planned = plan.lights[i];
-        const Light& light = frame.lights[i];
+        const Light& light = from.lights[i];
         VolumeDraw draw;
-        draw.pixels = litPixels(light, frame.camera, scene_ws, size_px);
+        draw.pixels = litPixels(light, from.camera, from.scene_ws, size_px);
         if (planned.volume_count == 0 || draw.pixels.empty()) {
             continue;
         }
@@ -56,8 +56,8 @@ void listVolumeDraws(const Frame& frame, const Plan& plan, glm::uvec2 size_px, s
         draw.channels = maskChannelsOf(planned);
         draw.place = light.type == LightType::directional
                          ? glm::vec4(glm::vec3(-glm::normalize(light.direction_ws)), 0.0F)
-                         : glm::vec4(glm::vec3(light.position_ws - frame.camera.eye_ws), 1.0F);
-        boundDepths(light, scene_ws, frame.camera, draw);
+                         : glm::vec4(glm::vec3(light.position_ws - from.camera.eye_ws), 1.0F);
+        boundDepths(light, from.scene_ws, from.camera, draw);
         out.push_back(draw);
     }
 }

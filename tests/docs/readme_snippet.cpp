@@ -40,13 +40,13 @@ int main()
 
     gnomon::vulkan::ShadowRenderer shadows(engine.view(), {}); // your device
     shadows.prepare(plan, screen);
-    shadows.recordMaps(commands, 0, frame, plan, [&](const gnomon::vulkan::MapPass& pass) {
+    shadows.recordMaps(commands, 0, plan, [&](const gnomon::vulkan::MapPass& pass) {
         for (const std::uint32_t object : pass.casters) { // all of them: filterable maps hold receivers, too
             // By pass.clip_from_world, with a pipeline for pass.formats: docs/integrating.md.
             drawObject(pass, object);
         }
     });
-    shadows.recordMask(commands, 0, frame, plan, {screen, depth_view});
+    shadows.recordMask(commands, 0, plan, {screen, depth_view});
     const gnomon::vulkan::ImageRef mask = shadows.mask(); // visibility per pixel: 1 lit, 0 in shadow
     // README end
 

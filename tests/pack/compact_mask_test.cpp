@@ -28,14 +28,14 @@ PlanByHand lampsByHand(std::uint32_t count)
     for (std::uint32_t i = 0; i < count; ++i) {
         by_hand.add(0, i % 5 == 4 ? 0 : 6);
     }
-    for (Light& light : by_hand.lights) {
+    for (Light& light : by_hand.plan.made_for.lights) {
         light.type = LightType::point;
         light.position_ws = {8.0 * dice(engine), 5.0 * dice(engine), -14.0 + 8.0 * dice(engine)};
         light.range_m = 3.5 + 2.0 * dice(engine);
         light.brightness = 50.0 + 40.0 * dice(engine);
     }
-    by_hand.frame.camera.clip_from_world = glm::perspectiveRH_ZO(1.0, double(kSize.x) / kSize.y, 0.1, 100.0);
-    by_hand.frame.size_px = kSize;
+    by_hand.plan.made_for.camera.clip_from_world = glm::perspectiveRH_ZO(1.0, double(kSize.x) / kSize.y, 0.1, 100.0);
+    by_hand.plan.made_for.size_px = kSize;
     return by_hand;
 }
 
@@ -43,7 +43,7 @@ pack::CompactMask maskOf(const PlanByHand& by_hand, const pack::CompactMaskRule&
 {
     pack::LightLists lists;
     pack::CompactMask mask;
-    pack::listCompactMask(by_hand.frame, by_hand.plan, rule, size_px, lists, mask);
+    pack::listCompactMask(by_hand.plan, rule, size_px, lists, mask);
     return mask;
 }
 
@@ -79,7 +79,7 @@ TEST_P(CompactMasks, HaveEveryLightOfEveryTileOnce)
     const PlanByHand by_hand = lampsByHand(60);
     const pack::CompactMask mask = maskOf(by_hand, GetParam());
     pack::LightLists lists;
-    pack::listLights(by_hand.frame, {}, GetParam().side_px, lists);
+    pack::listLights(by_hand.plan.made_for.lights, by_hand.plan.made_for.camera, {}, kSize, GetParam().side_px, lists);
     ASSERT_EQ(mask.tiles, lists.tiles);
     bool shares = false;
     for (std::uint32_t y = 0; y < mask.tiles.y; ++y) {
@@ -107,9 +107,9 @@ TEST(CompactMask, GivesTheBrightestTheirOwnChannels)
 {
     PlanByHand by_hand = lampsByHand(10);
     for (std::uint32_t i = 0; i < 10; ++i) {
-        by_hand.lights[i].position_ws = {0.0, 0.0, -5.0};
-        by_hand.lights[i].range_m = 100.0;
-        by_hand.lights[i].brightness = i == 3 ? 9.0 : i == 8 ? 7.0 : i == 1 ? 5.0 : 2.0;
+        by_hand.plan.made_for.lights[i].position_ws = {0.0, 0.0, -5.0};
+        by_hand.plan.made_for.lights[i].range_m = 100.0;
+        by_hand.plan.made_for.lights[i].brightness = i == 3 ? 9.0 : i == 8 ? 7.0 : i == 1 ? 5.0 : 2.0;
     }
     const pack::CompactMask mask = maskOf(by_hand, {4, 16});
     const auto lights = mask.of(3, 3);
@@ -149,25 +149,25 @@ TEST(CompactMask, SurvivesNumbersThatAreNone)
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     PlanByHand by_hand = lampsByHand(20);
-    by_hand.lights[0].position_ws.x = kNan;
-    by_hand.lights[1].brightness = kNan;
-    by_hand.lights[2].brightness = kInfinity;
-    by_hand.lights[3].range_m = kNan;
-    by_hand.lights[5].range_m = -1.0;
-    by_hand.lights[6].brightness = -1.0;
+    by_hand.plan.made_for.lights[0].position_ws.x = kNan;
+    by_hand.plan.made_for.lights[1].brightness = kNan;
+    by_hand.plan.made_for.lights[2].brightness = kInfinity;
+    by_hand.plan.made_for.lights[3].range_m = kNan;
+    by_hand.plan.made_for.lights[5].range_m = -1.0;
+    by_hand.plan.made_for.lights[6].brightness = -1.0;
     for (const pack::TileLight& light : maskOf(by_hand, {4, 16}).lights) {
         EXPECT_GE(light.weight, 0.0F);
         EXPECT_LE(light.weight, 1.0F);
     }
     EXPECT_TRUE(maskOf(by_hand, {4, 16}, {0, 10}).lights.empty());
     EXPECT_TRUE(maskOf(by_hand, {0, 16}).lights.empty());
-    by_hand.frame.camera.clip_from_world = glm::dmat4(kNan);
+    by_hand.plan.made_for.camera.clip_from_world = glm::dmat4(kNan);
     (void)maskOf(by_hand, {8, 32});
-    by_hand.frame.camera.clip_from_world = glm::dmat4(0.0);
+    by_hand.plan.made_for.camera.clip_from_world = glm::dmat4(0.0);
     (void)maskOf(by_hand, {8, 32});
     EXPECT_THROW((void)maskOf(by_hand, {5, 16}), Error);
     EXPECT_THROW((void)maskOf(by_hand, {4, 0}), Error);
-    by_hand.frame.lights = by_hand.frame.lights.first(3);
+    by_hand.plan.made_for.lights.resize(3);
     EXPECT_THROW((void)maskOf(by_hand, {4, 16}), Error);
 }
 

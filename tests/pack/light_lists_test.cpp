@@ -101,7 +101,7 @@ TEST(LightLists, MissNoPixelThatALightReaches)
             lights.push_back(lightOf(dice, i % 4 == 3 ? LightType::point : LightType::spot));
         }
         frame.lights = lights;
-        pack::listLights(frame, {glm::dvec3(-30.0), glm::dvec3(30.0)}, kSide, lists);
+        pack::listLights(frame.lights, frame.camera, {glm::dvec3(-30.0), glm::dvec3(30.0)}, kSize, kSide, lists);
         ASSERT_EQ(lists.tiles, glm::uvec2(20, 12));
         count.listed += lists.lights.size();
         count.all += lights.size() * lists.tiles.x * lists.tiles.y;
@@ -130,7 +130,7 @@ TEST(LightLists, HaveSunsEverywhereAndLightsBehindTheEyeNowhere)
     lights[2].direction_ws = {0.0, 0.0, -1.0};
     frame.lights = lights;
     pack::LightLists lists;
-    pack::listLights(frame, {glm::dvec3(-1.0), glm::dvec3(1.0)}, 16, lists);
+    pack::listLights(frame.lights, frame.camera, {glm::dvec3(-1.0), glm::dvec3(1.0)}, frame.size_px, 16, lists);
     ASSERT_EQ(lists.tiles, glm::uvec2(4, 3));
     for (std::uint32_t y = 0; y < 3; ++y) {
         for (std::uint32_t x = 0; x < 4; ++x) {

@@ -161,7 +161,7 @@ TEST(MaskDraws, ColouredLightIsDrawnToAllChannelsOfItsLayer)
     EXPECT_EQ(draws[1].channels, 0b1111U);
     EXPECT_FALSE(draws[1].shares);
     std::vector<shared::GpuLight> lights(pack::maskLightCount(by_hand.plan));
-    pack::fillMaskLights(by_hand.frame, by_hand.plan, draws, lights);
+    pack::fillMaskLights(by_hand.plan, draws, lights);
     EXPECT_EQ(lights[0].views, glm::uvec4(0, 1, 0, 0));
     EXPECT_EQ(lights[1].views.y, 0U) << "nobody has that channel";
     for (std::uint32_t channel = 0; channel < 4; ++channel) {
@@ -185,7 +185,7 @@ TEST(MaskDraws, HaveRoomForTheirLightsHoweverSunsStand)
     const auto draws = drawsOf(by_hand.plan);
     EXPECT_GT(draws.size(), 9U);
     std::vector<shared::GpuLight> lights(pack::maskLightCount(by_hand.plan));
-    pack::fillMaskLights(by_hand.frame, by_hand.plan, draws, lights);
+    pack::fillMaskLights(by_hand.plan, draws, lights);
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
     for (const pack::MaskDraw& draw : draws) {

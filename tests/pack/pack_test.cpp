@@ -128,7 +128,7 @@ TEST(CascadeLights, AreOnlyThoseThatTheGpuFits)
     sdsm.cascades.count = 3;
     sdsm.max_distance_m = 80.0;
     PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}, sdsm});
-    by_hand.frame.camera = {{0.0, 2.0, 0.0}, glm::perspectiveRH_ZO(0.9, 1.6, 500.0, 0.1)};
+    by_hand.plan.made_for.camera = {{0.0, 2.0, 0.0}, glm::perspectiveRH_ZO(0.9, 1.6, 500.0, 0.1)};
     by_hand.add(0, 1);
     by_hand.add(1, 3);
     for (std::uint32_t i = 0; i < 3; ++i) {
@@ -136,7 +136,7 @@ TEST(CascadeLights, AreOnlyThoseThatTheGpuFits)
     }
     ASSERT_EQ(pack::cascadeLightCount(by_hand.plan), 1U);
     std::array<shared::GpuCascadeLight, 2> lights{};
-    EXPECT_EQ(pack::fillCascadeLights(by_hand.frame, by_hand.plan, {320, 200}, lights), 1U);
+    EXPECT_EQ(pack::fillCascadeLights(by_hand.plan, {320, 200}, lights), 1U);
     EXPECT_EQ(lights[0].cascades.x, 3U);
     EXPECT_EQ(lights[0].cascades.y, 1U) << "its first view";
     EXPECT_EQ(lights[0].reach.y, 80.0F) << "by its own options";

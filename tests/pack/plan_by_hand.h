@@ -21,8 +21,6 @@ inline ShadowOptions filteredBy(Filter filter)
 /// A planner's options, of which lights are added one by one.
 struct PlanByHand {
     Plan plan;
-    std::vector<Light> lights;
-    Frame frame;
 
     explicit PlanByHand(std::initializer_list<ShadowOptions> options)
     {
@@ -39,7 +37,7 @@ struct PlanByHand {
         Light light;
         light.direction_ws = {0.0, -1.0, 0.0};
         light.options = options;
-        lights.push_back(light);
+        plan.made_for.lights.push_back(light);
         const auto index = static_cast<std::uint32_t>(plan.lights.size());
         LightPlan planned;
         planned.first_view = static_cast<std::uint32_t>(plan.views.size());
@@ -56,7 +54,6 @@ struct PlanByHand {
             plan.views.push_back(view);
         }
         plan.mask_layers = index / 4 + 1;
-        frame.lights = lights;
         return plan.lights.back();
     }
 };

@@ -99,12 +99,12 @@ TEST(MaskDraws, AreWhereALampReachesAndNeedNoOtherPipelines)
     by_hand.add(0, 6);
     by_hand.add(1, 6);
     by_hand.add(0, 6);
-    by_hand.lights[1] = lampAt({0.0, 0.0, -10.0}, 1.0);
-    by_hand.lights[2] = lampAt({0.0, 0.0, 10.0}, 1.0); // behind the eye
-    by_hand.lights[3] = lampAt({2.0, 0.0, -10.0}, 0.5);
-    by_hand.frame.camera = cameraAtOrigin();
+    by_hand.plan.made_for.lights[1] = lampAt({0.0, 0.0, -10.0}, 1.0);
+    by_hand.plan.made_for.lights[2] = lampAt({0.0, 0.0, 10.0}, 1.0); // behind the eye
+    by_hand.plan.made_for.lights[3] = lampAt({2.0, 0.0, -10.0}, 0.5);
+    by_hand.plan.made_for.camera = cameraAtOrigin();
     std::vector<pack::MaskDraw> draws;
-    pack::listMaskDraws(by_hand.frame, by_hand.plan, {400, 400}, draws);
+    pack::listMaskDraws(by_hand.plan, {400, 400}, draws);
     EXPECT_LE(draws.size(), pack::mostMaskDraws(by_hand.plan));
     std::uint64_t sun = 0;
     std::uint64_t lamp = 0;
@@ -121,7 +121,7 @@ TEST(MaskDraws, AreWhereALampReachesAndNeedNoOtherPipelines)
     EXPECT_LT(lamp, 400U * 400U / 10);
     EXPECT_EQ(hidden, 0U);
     std::vector<shared::GpuLight> lights(pack::maskLightCount(by_hand.plan));
-    pack::fillMaskLights(by_hand.frame, by_hand.plan, draws, lights);
+    pack::fillMaskLights(by_hand.plan, draws, lights);
     EXPECT_EQ(lights[1].views, glm::uvec4(1, 6, 0, 0));
     EXPECT_EQ(lights[3].views, glm::uvec4(13, 6, 0, 0));
 }
@@ -133,20 +133,20 @@ TEST(MaskDraws, SurviveNumbersThatAreNone)
     for (int i = 0; i < 4; ++i) {
         by_hand.add(0, 6);
     }
-    by_hand.lights[0] = lampAt({kNan, 0.0, 0.0}, 1.0);
-    by_hand.lights[1] = lampAt({0.0, 0.0, -5.0}, kNan);
-    by_hand.lights[2] = lampAt({0.0, 0.0, -5.0}, -1.0);
-    by_hand.lights[3] = lampAt({0.0, 0.0, -5.0}, 1.0);
-    by_hand.lights[3].type = LightType::spot;
-    by_hand.lights[3].direction_ws = glm::dvec3(0.0);
-    by_hand.frame.camera = cameraAtOrigin();
+    by_hand.plan.made_for.lights[0] = lampAt({kNan, 0.0, 0.0}, 1.0);
+    by_hand.plan.made_for.lights[1] = lampAt({0.0, 0.0, -5.0}, kNan);
+    by_hand.plan.made_for.lights[2] = lampAt({0.0, 0.0, -5.0}, -1.0);
+    by_hand.plan.made_for.lights[3] = lampAt({0.0, 0.0, -5.0}, 1.0);
+    by_hand.plan.made_for.lights[3].type = LightType::spot;
+    by_hand.plan.made_for.lights[3].direction_ws = glm::dvec3(0.0);
+    by_hand.plan.made_for.camera = cameraAtOrigin();
     std::vector<pack::MaskDraw> draws;
-    pack::listMaskDraws(by_hand.frame, by_hand.plan, {400, 400}, draws);
+    pack::listMaskDraws(by_hand.plan, {400, 400}, draws);
     ASSERT_EQ(draws.size(), 1U);
     EXPECT_EQ(draws[0].channels, 0xFU) << "where a light reaches is not known: everywhere";
-    by_hand.frame.camera.clip_from_world[0][0] = kNan;
-    pack::listMaskDraws(by_hand.frame, by_hand.plan, {400, 400}, draws);
-    pack::listMaskDraws(by_hand.frame, by_hand.plan, {0, 0}, draws);
+    by_hand.plan.made_for.camera.clip_from_world[0][0] = kNan;
+    pack::listMaskDraws(by_hand.plan, {400, 400}, draws);
+    pack::listMaskDraws(by_hand.plan, {0, 0}, draws);
     EXPECT_TRUE(draws.empty());
 }
 

@@ -24,14 +24,14 @@ TEST(ShadingBuffers, TakeAPointToItsTexelHoweverFarFromTheOrigin)
 {
     PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}});
     by_hand.add(0, 1);
-    by_hand.frame.camera = cameraAt(kFarAway);
+    by_hand.plan.made_for.camera = cameraAt(kFarAway);
     View& view = by_hand.plan.views[0];
     view.tile = {2, 64, 32, 256, 128};
     view.clip_from_world = glm::orthoRH_ZO(-20.0, 20.0, -10.0, 10.0, 0.0, 100.0) *
                            glm::lookAtRH(kFarAway, kFarAway - glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0));
     std::vector<shared::GpuView> views(1);
     const pack::MapImage image{{1024, 1024}, 1};
-    pack::fillViews(by_hand.frame, by_hand.plan, {&image, 1}, views);
+    pack::fillViews(by_hand.plan, {&image, 1}, views);
     const glm::dvec3 from_eye(3.0, -8.0, -5.0);
     const glm::dvec4 clip = view.clip_from_world * glm::dvec4(kFarAway + from_eye, 1.0);
     const glm::vec4 point(glm::vec3(from_eye), 1.0F);
@@ -49,7 +49,7 @@ TEST(ShadingBuffers, WhatIsBeyondThePlansViewsServesNoDepth)
     std::vector<shared::GpuView> views(shared::kFewViews + 2);
     views.back().slice = glm::vec4(7.0F);
     const pack::MapImage image{{256, 256}, 1};
-    pack::fillViews(by_hand.frame, by_hand.plan, {&image, 1}, views);
+    pack::fillViews(by_hand.plan, {&image, 1}, views);
     for (std::size_t i = 0; i < shared::kFewViews; ++i) {
         EXPECT_EQ(views[i].slice.x <= views[i].slice.y, i < 2) << i;
     }
@@ -62,11 +62,11 @@ TEST(ShadingBuffers, ConstantsAreThoseOfTheOptionsAskedFor)
     fading.max_distance_m = 50.0;
     fading.fade = 0.2;
     PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}, fading});
-    by_hand.frame.camera = cameraAt({0.0, 2.0, 0.0});
+    by_hand.plan.made_for.camera = cameraAt({0.0, 2.0, 0.0});
     shared::GpuConstants first{};
     shared::GpuConstants second{};
-    pack::fillConstants(by_hand.frame, by_hand.plan, 0, {320, 200}, {{512, 256}, 1}, {}, first);
-    pack::fillConstants(by_hand.frame, by_hand.plan, 1, {320, 200}, {{128, 64}, 3}, {}, second);
+    pack::fillConstants(by_hand.plan, 0, {320, 200}, {{512, 256}, 1}, {}, first);
+    pack::fillConstants(by_hand.plan, 1, {320, 200}, {{128, 64}, 3}, {}, second);
     EXPECT_EQ(first.rule.reading.x, static_cast<int>(Filter::pcf));
     EXPECT_EQ(first.screen.fade, glm::vec4(0.0F)) << "nothing fades";
     EXPECT_EQ(first.rule.disc.z, 1.0F / 512.0F);
@@ -85,7 +85,7 @@ TEST(ShadingBuffers, TakeEveryPrecisionThatADeviceMayHave)
         pack::DrawPrecision precision{.sub_pixel_bits = bits};
         precision.normal_error_rad = pack::normalErrorFromDepth(bits);
         shared::GpuConstants constants{};
-        pack::fillConstants(by_hand.frame, by_hand.plan, 0, {320, 200}, {{512, 256}, 1}, precision, constants);
+        pack::fillConstants(by_hand.plan, 0, {320, 200}, {{512, 256}, 1}, precision, constants);
         EXPECT_LT(constants.rule.bias.w, before) << bits;
         before = constants.rule.bias.w;
     }
@@ -99,7 +99,7 @@ TEST(ShadingBuffers, LightsWithoutAMapHaveNoViews)
     by_hand.add(1, 3);
     std::vector<shared::GpuLight> lights(4);
     lights[3].views = glm::uvec4(9);
-    pack::fillLights(by_hand.frame, by_hand.plan, lights);
+    pack::fillLights(by_hand.plan, lights);
     EXPECT_EQ(lights[0].views, glm::uvec4(0, 1, 0, 0));
     EXPECT_EQ(lights[1].views, glm::uvec4(0));
     EXPECT_EQ(lights[2].views, glm::uvec4(1, 3, 0, 0));
@@ -117,11 +117,11 @@ TEST(ShadingBuffers, ByTurnsTheMapsThatAreDrawnAreReadAlone)
     by_hand.plan.views[1].sun = SunPosition::later;
     light.steps.paired = true;
     std::vector<shared::GpuLight> lights(1);
-    pack::fillLights(by_hand.frame, by_hand.plan, lights);
+    pack::fillLights(by_hand.plan, lights);
     EXPECT_EQ(lights[0].views, glm::uvec4(0, 1, 1, 1));
     light.steps.alternate = true;
     light.steps.read = SunPosition::later;
-    pack::fillLights(by_hand.frame, by_hand.plan, lights);
+    pack::fillLights(by_hand.plan, lights);
     EXPECT_EQ(lights[0].views, glm::uvec4(1, 1, 0, 0));
 }
 
@@ -129,24 +129,24 @@ TEST(ShadingBuffers, WhatIsNotThereOrHasNoRoomIsAnError)
 {
     PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}});
     by_hand.add(0, 2);
-    const Frame& frame = by_hand.frame;
+    const PlannedFrame& frame = by_hand.plan.made_for;
     const Plan& plan = by_hand.plan;
     const pack::MapImage image{{256, 256}, 1};
     shared::GpuConstants constants{};
-    EXPECT_THROW(pack::fillConstants(frame, plan, 1, {320, 200}, image, {}, constants), Error);
-    EXPECT_THROW(pack::fillConstants(frame, plan, 0, {320, 0}, image, {}, constants), Error);
-    EXPECT_THROW(pack::fillConstants(frame, plan, 0, {320, 200}, {{0, 256}, 1}, {}, constants), Error);
-    EXPECT_THROW(pack::fillConstants(frame, Plan(), 0, {320, 200}, image, {}, constants), Error);
+    EXPECT_THROW(pack::fillConstants(plan, 1, {320, 200}, image, {}, constants), Error);
+    EXPECT_THROW(pack::fillConstants(plan, 0, {320, 0}, image, {}, constants), Error);
+    EXPECT_THROW(pack::fillConstants(plan, 0, {320, 200}, {{0, 256}, 1}, {}, constants), Error);
+    EXPECT_THROW(pack::fillConstants(Plan(), 0, {320, 200}, image, {}, constants), Error);
     std::vector<shared::GpuView> views(1);
-    EXPECT_THROW(pack::fillViews(frame, plan, {&image, 1}, views), Error);
-    EXPECT_THROW(pack::fillViews(frame, plan, {}, std::span(views)), Error);
+    EXPECT_THROW(pack::fillViews(plan, {&image, 1}, views), Error);
+    EXPECT_THROW(pack::fillViews(plan, {}, std::span(views)), Error);
     std::vector<shared::GpuLight> lights;
-    EXPECT_THROW(pack::fillLights(frame, plan, lights), Error);
+    EXPECT_THROW(pack::fillLights(plan, lights), Error);
     lights.resize(shared::kLightsPerLayer);
     pack::MaskDraw draw;
     draw.first_light = 1;
-    EXPECT_THROW(pack::fillMaskLights(frame, plan, {&draw, 1}, lights), Error);
-    EXPECT_THROW(pack::fillMaskLights(Frame(), plan, {}, lights), Error);
+    EXPECT_THROW(pack::fillMaskLights(plan, {&draw, 1}, lights), Error);
+    EXPECT_THROW(pack::fillMaskLights(plan, {}, lights), Error);
 }
 
 } // namespace

@@ -86,9 +86,9 @@ struct FittedHost {
     }
     void record(std::uint32_t slot)
     {
-        renderer.recordBounds(driver.commands(), slot, frame, plan, inputs);
-        renderer.recordMaps(driver.commands(), slot, frame, plan, draw);
-        renderer.recordMask(driver.commands(), slot, frame, plan, inputs);
+        renderer.recordBounds(driver.commands(), slot, plan, inputs);
+        renderer.recordMaps(driver.commands(), slot, plan, draw);
+        renderer.recordMask(driver.commands(), slot, plan, inputs);
     }
 
     NullDriver& driver;

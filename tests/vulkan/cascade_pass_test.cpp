@@ -112,7 +112,7 @@ protected:
             passes.clear();
             gpu().run([&](VkCommandBuffer commands) {
                 bench->drawer.beginFrame(0, bench->plan, bench->mesh.geometry, transforms);
-                bench->renderer.recordMaps(commands, 0, bench->frame, bench->plan, [&](const vulkan::MapPass& pass) {
+                bench->renderer.recordMaps(commands, 0, bench->plan, [&](const vulkan::MapPass& pass) {
                     passes.push_back(pass.view_count);
                     bench->drawer.draw(pass);
                 });
@@ -249,7 +249,7 @@ public:
     void record(std::uint32_t slot = 0)
     {
         drawer.beginFrame(slot, plan, geometry, transforms);
-        renderer.recordMaps(driver.commands(), slot, frame, plan, draw);
+        renderer.recordMaps(driver.commands(), slot, plan, draw);
     }
     /// Of each begun rendering.
     std::vector<std::uint32_t> layerCounts() const

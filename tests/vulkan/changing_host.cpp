@@ -179,14 +179,14 @@ vulkan::MaskInputs ChangingHost::inputsOf(std::uint32_t slot, const FrameSetup& 
     return inputs;
 }
 
-Made ChangingHost::record(std::uint32_t slot, const Frame& frame, const Plan& plan, const vulkan::MaskInputs& inputs)
+Made ChangingHost::record(std::uint32_t slot, const Plan& plan, const vulkan::MaskInputs& inputs)
 {
     views_seen += plan.views.size();
     const NullCounts before = driver.counts();
     const std::uint64_t heap = heapAllocations();
-    renderer.recordBounds(driver.commands(), slot, frame, plan, inputs);
-    renderer.recordMaps(driver.commands(), slot, frame, plan, draw_);
-    renderer.recordMask(driver.commands(), slot, frame, plan, inputs);
+    renderer.recordBounds(driver.commands(), slot, plan, inputs);
+    renderer.recordMaps(driver.commands(), slot, plan, draw_);
+    renderer.recordMask(driver.commands(), slot, plan, inputs);
     return {driver.counts().pipelines - before.pipelines, driver.counts().allocations - before.allocations,
             heapAllocations() - heap};
 }

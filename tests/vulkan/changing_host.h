@@ -85,8 +85,7 @@ private:
     void move(const FrameSetup& setup);
     [[nodiscard]] Frame nextFrame(const FrameSetup& setup);
     [[nodiscard]] vulkan::MaskInputs inputsOf(std::uint32_t slot, const FrameSetup& setup);
-    [[nodiscard]] Made record(std::uint32_t slot, const Frame& frame, const Plan& plan,
-                              const vulkan::MaskInputs& inputs);
+    [[nodiscard]] Made record(std::uint32_t slot, const Plan& plan, const vulkan::MaskInputs& inputs);
 
     Scene scene_ = test::makeScene();
     ObjectSet objects_;

@@ -50,7 +50,7 @@ public:
         EXPECT_EQ(compact.renderer.maskTiles(99).bytes, 0U);
         EXPECT_EQ(each.renderer.maskTiles(0).bytes, 0U);
         pack::LightLists lists;
-        pack::listCompactMask(frame_, *plan_, rule, {kScreen.width, kScreen.height}, lists, tiles_);
+        pack::listCompactMask(*plan_, rule, {kScreen.width, kScreen.height}, lists, tiles_);
     }
 
     /// Difference between what a pixel's tile says of its lights and what the ordinary mask does, of 255; of lights

@@ -31,7 +31,7 @@ struct Watcher {
         : scene(scene_in), drawing(gpu(), scene_in.mesh()), planner(options)
     {
     }
-    std::vector<std::byte> draw(const Frame& frame) { return scene.draw(drawing, frame, planner.plan(frame)); }
+    std::vector<std::byte> draw(const Frame& frame) { return scene.draw(drawing, planner.plan(frame)); }
     std::vector<std::byte> draw(std::span<const Light> lights) { return draw(scene.frameOf(lights)); }
 
     PlannedScene& scene;

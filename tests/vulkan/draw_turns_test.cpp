@@ -47,11 +47,11 @@ struct Turns {
         passes = 0;
         gpu().run([&](VkCommandBuffer commands) {
             bench.drawer.beginFrame(0, bench.plan, bench.mesh.geometry, transforms);
-            bench.renderer.recordMaps(commands, 0, frame, bench.plan, [&](const vulkan::MapPass& pass) {
+            bench.renderer.recordMaps(commands, 0, bench.plan, [&](const vulkan::MapPass& pass) {
                 bench.drawer.draw(pass);
                 ++passes;
             });
-            bench.renderer.recordMask(commands, 0, frame, bench.plan, bench.inputs);
+            bench.renderer.recordMask(commands, 0, bench.plan, bench.inputs);
         });
         return bench.plan;
     }

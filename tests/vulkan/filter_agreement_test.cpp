@@ -29,7 +29,7 @@ public:
         const Frame frame;
         gpu().run([&](VkCommandBuffer commands) {
             drawer_.beginFrame(0, plan, mesh_.geometry, transforms_);
-            renderer_.recordMaps(commands, 0, frame, plan, [&](const vulkan::MapPass& pass) { drawer_.draw(pass); });
+            renderer_.recordMaps(commands, 0, plan, [&](const vulkan::MapPass& pass) { drawer_.draw(pass); });
         });
         expectSilence(gpu());
     }

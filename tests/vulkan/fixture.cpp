@@ -152,8 +152,8 @@ void Bench::record(int frames, vulkan::Profiler* profiler)
                     profiler->addDraws(draws);
                 }
             };
-            renderer.recordMaps(commands, 0, frame, plan, draw, profiler);
-            renderer.recordMask(commands, 0, frame, plan, inputs, profiler);
+            renderer.recordMaps(commands, 0, plan, draw, profiler);
+            renderer.recordMask(commands, 0, plan, inputs, profiler);
         });
     }
 }

@@ -191,7 +191,7 @@ TEST_P(HalfMaskLines, KeepsThePixelsThatItReads)
         Drawing drawing(gpu(), scene.mesh());
         Planner planner(options);
         const Frame frame = scene.frameOf(lights);
-        return scene.draw(drawing, frame, planner.plan(frame));
+        return scene.draw(drawing, planner.plan(frame));
     };
     const std::vector<std::byte> whole = drawn(MaskSize::full);
     const std::vector<std::byte> half = drawn(MaskSize::half);
@@ -239,7 +239,7 @@ TEST(HalfMaskBeside, LightsOfOneLayerHaveEachTheirOwn)
         Drawing drawing(gpu(), scene.mesh());
         Planner planner(options);
         const Frame frame = scene.frameOf(lights);
-        return scene.draw(drawing, frame, planner.plan(frame));
+        return scene.draw(drawing, planner.plan(frame));
     };
     const auto mixed = drawn(several);
     const auto expected = drawn(whole);
@@ -276,7 +276,7 @@ TEST(HalfMaskBeside, GoesWithEveryOtherPassOfTheMask)
             std::vector<std::byte> mask;
             for (int i = 0; i < 3; ++i) {
                 const Frame frame = scene.frameOf(lights);
-                mask = scene.draw(drawing, frame, planner.plan(frame));
+                mask = scene.draw(drawing, planner.plan(frame));
             }
             return mask;
         };
@@ -297,7 +297,7 @@ TEST(HalfMaskBeside, GoesWithEveryOtherPassOfTheMask)
                                optionsFrom("filter=pcf soften=converge map-size=64")});
     for (int i = 0; i < 3; ++i) {
         const Frame frame = scene.frameOf(both);
-        (void)scene.draw(drawing, frame, planner.plan(frame));
+        (void)scene.draw(drawing, planner.plan(frame));
     }
     expectSilence(gpu());
 }
@@ -322,7 +322,7 @@ TEST(HalfMaskImages, FollowTheSizeTheOptionsAndTheInputs)
         options.mask_size = size;
         Planner planner(options);
         const Frame frame = scene.frameOf(lights);
-        return scene.draw(drawing, frame, planner.plan(frame));
+        return scene.draw(drawing, planner.plan(frame));
     };
     const auto isAsIfFresh = [&](MaskSize size) {
         Drawing fresh(gpu(), scene.mesh());

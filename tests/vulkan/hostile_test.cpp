@@ -54,12 +54,12 @@ protected:
                                                              vulkan::ShadowRendererOptions{.frames_in_flight = 1});
         (void)renderer_->prepare(plan_, kScreen);
         gpu().run([&](VkCommandBuffer commands) {
-            renderer_->recordMaps(commands, 0, frame_, plan_, [](const vulkan::MapPass&) {});
+            renderer_->recordMaps(commands, 0, plan_, [](const vulkan::MapPass&) {});
         });
     }
     std::vector<std::byte> drawMask(std::uint32_t light)
     {
-        gpu().run([&](VkCommandBuffer commands) { renderer_->recordMask(commands, 0, frame_, plan_, inputs_); });
+        gpu().run([&](VkCommandBuffer commands) { renderer_->recordMask(commands, 0, plan_, inputs_); });
         return readMaskChannel(gpu(), renderer_->mask(), plan_.lights[light]);
     }
     // Every texel of one view's tile, in every level that it has and every layer of the image.

@@ -159,7 +159,7 @@ public:
                 const auto draw = [&](const vulkan::MapPass& pass) {
                     bench->drawer.draw(pass);
                 };
-                bench->renderer.recordMaps(commands, 0, bench->frame, bench->plan, draw);
+                bench->renderer.recordMaps(commands, 0, bench->plan, draw);
             });
         }
         for (std::size_t i = 0; i < kept.plan.views.size(); ++i) {

@@ -152,8 +152,8 @@ TEST(HostHandles, AreWrittenInEveryFrame)
     (void)renderer.prepare(plan, kPicture);
     for (std::uint32_t i = 0; i < 6; ++i) {
         const auto before = driver.counts().descriptor_updates;
-        renderer.recordMaps(driver.commands(), i % 2, frame, plan, [](const vulkan::MapPass&) {});
-        renderer.recordMask(driver.commands(), i % 2, frame, plan, inputs);
+        renderer.recordMaps(driver.commands(), i % 2, plan, [](const vulkan::MapPass&) {});
+        renderer.recordMask(driver.commands(), i % 2, plan, inputs);
         EXPECT_GT(driver.counts().descriptor_updates, before) << i;
     }
 }

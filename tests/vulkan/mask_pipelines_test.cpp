@@ -31,8 +31,8 @@ public:
         const auto before = driver_.counts().pipelines;
         (void)renderer_.prepare(plan, kScreen);
         const auto prepared = driver_.counts().pipelines;
-        renderer_.recordMaps(driver_.commands(), 0, frame, plan, [](const vulkan::MapPass&) {});
-        renderer_.recordMask(driver_.commands(), 0, frame, plan, inputs_);
+        renderer_.recordMaps(driver_.commands(), 0, plan, [](const vulkan::MapPass&) {});
+        renderer_.recordMask(driver_.commands(), 0, plan, inputs_);
         return {prepared - before, driver_.counts().pipelines - prepared};
     }
 

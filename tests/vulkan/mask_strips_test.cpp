@@ -91,9 +91,9 @@ public:
         const auto transforms = bench.scene.transforms();
         gpu().run([&](VkCommandBuffer commands) {
             bench.drawer.beginFrame(0, bench.plan, bench.mesh.geometry, transforms);
-            bench.renderer.recordMaps(commands, 0, bench.frame, bench.plan,
+            bench.renderer.recordMaps(commands, 0, bench.plan,
                                       [&](const vulkan::MapPass& pass) { bench.drawer.draw(pass); });
-            bench.renderer.recordMask(commands, 0, bench.frame, bench.plan, bench.inputs);
+            bench.renderer.recordMask(commands, 0, bench.plan, bench.inputs);
             for (std::size_t i = 0; i < steps.size(); ++i) {
                 memory_.lights()[i].steps = pack::stepRule(steps[i]);
             }

@@ -80,9 +80,8 @@ TEST(Misuse, OfSlotsAndHandlesIsAnError)
     for (const std::uint32_t slot : {2U, 1000U, 0xFFFFFFFFU}) {
         expectRefused(host, "there are 2 frames in flight", [&] { host.maps(slot); });
         expectRefused(host, "there are 2 frames in flight", [&] { host.mask(slot); });
-        expectRefused(host, "there are 2 frames in flight", [&] {
-            host.renderer.recordBounds(host.driver.commands(), slot, host.frame, host.plan, host.inputs);
-        });
+        expectRefused(host, "there are 2 frames in flight",
+                      [&] { host.renderer.recordBounds(host.driver.commands(), slot, host.plan, host.inputs); });
         expectRefused(host, "there are 2 frames in flight", [&] {
             host.renderer.recordViews(host.driver.commands(), slot, host.plan, host.geometry.indices);
         });
@@ -97,11 +96,11 @@ TEST(Misuse, OfSlotsAndHandlesIsAnError)
     }
     EXPECT_TRUE(host.renderer.depthLayers(host.plan, 77).empty());
     expectRefused(host, "command buffer is null",
-                  [&] { host.renderer.recordMaps(VK_NULL_HANDLE, 0, host.frame, host.plan, host.draw); });
+                  [&] { host.renderer.recordMaps(VK_NULL_HANDLE, 0, host.plan, host.draw); });
     expectRefused(host, "command buffer is null",
-                  [&] { host.renderer.recordMask(VK_NULL_HANDLE, 0, host.frame, host.plan, host.inputs); });
+                  [&] { host.renderer.recordMask(VK_NULL_HANDLE, 0, host.plan, host.inputs); });
     expectRefused(host, "no function that draws casters",
-                  [&] { host.renderer.recordMaps(host.driver.commands(), 0, host.frame, host.plan, nullptr); });
+                  [&] { host.renderer.recordMaps(host.driver.commands(), 0, host.plan, nullptr); });
     vulkan::CasterGeometry nothing;
     expectRefused(host, "positions or of indices is null",
                   [&] { host.drawer.beginFrame(0, host.plan, nothing, host.transforms); });
@@ -114,7 +113,7 @@ TEST(Misuse, OfTheMasksInputsIsAnError)
     host.record();
     const auto with = [&](const vulkan::MaskInputs& inputs) {
         return [&host, inputs] {
-            host.renderer.recordMask(host.driver.commands(), 0, host.frame, host.plan, inputs);
+            host.renderer.recordMask(host.driver.commands(), 0, host.plan, inputs);
         };
     };
     vulkan::MaskInputs inputs = host.inputs;
@@ -325,7 +324,7 @@ TEST(Misuse, OfAnotherPlanThanWasPreparedIsAnError)
     host.record();
     Misuser other({.technique = {.filter = Filter::vsm}});
     expectRefused(host, "call prepare() with it first",
-                  [&] { host.renderer.recordMaps(host.driver.commands(), 0, other.frame, other.plan, host.draw); });
+                  [&] { host.renderer.recordMaps(host.driver.commands(), 0, other.plan, host.draw); });
     const std::vector<std::function<void(Plan&)>> larger{[](Plan& p) { p.pages[0].layers = 3; },
                                                          [](Plan& p) { p.pages[0].kept_layers = 1; },
                                                          [](Plan& p) {
@@ -364,8 +363,8 @@ TEST(Misuse, OfCascadesThatWereNotFittedIsAnError)
     vulkan::MaskInputs inputs = host.inputs;
     inputs.depth = VK_NULL_HANDLE;
     expectRefused(host, "depth is null",
-                  [&] { host.renderer.recordBounds(host.driver.commands(), 0, host.frame, host.plan, inputs); });
-    host.renderer.recordBounds(host.driver.commands(), 0, host.frame, host.plan, host.inputs);
+                  [&] { host.renderer.recordBounds(host.driver.commands(), 0, host.plan, inputs); });
+    host.renderer.recordBounds(host.driver.commands(), 0, host.plan, host.inputs);
     expectRefused(host, "the buffer of views is null",
                   [&] { host.renderer.recordViews(host.driver.commands(), 0, host.plan, VK_NULL_HANDLE); });
     host.maps();
@@ -379,7 +378,7 @@ TEST(Misuse, OfTheCallbackLeavesTheRendererWhole)
     host.driver.beginSlot(0);
     host.prepare();
     host.begin();
-    EXPECT_THROW(host.renderer.recordMaps(host.driver.commands(), 0, host.frame, host.plan,
+    EXPECT_THROW(host.renderer.recordMaps(host.driver.commands(), 0, host.plan,
                                           [](const MapPass&) { throw std::runtime_error("of the host"); }),
                  std::runtime_error);
     host.profiler.beginFrame(host.driver.commands(), 0);
@@ -387,7 +386,7 @@ TEST(Misuse, OfTheCallbackLeavesTheRendererWhole)
         host.profiler.endPass(pass.commands);
         host.drawer.draw(pass);
     };
-    host.renderer.recordMaps(host.driver.commands(), 0, host.frame, host.plan, meddle, &host.profiler);
+    host.renderer.recordMaps(host.driver.commands(), 0, host.plan, meddle, &host.profiler);
     host.mask();
     EXPECT_EQ(host.renderer.reuse(0).drawn, 2U);
     EXPECT_GT(host.driver.counts().instances, 0U);

@@ -54,8 +54,8 @@ public:
     }
     void prepare() { (void)renderer.prepare(plan, kPicture); }
     void begin() { drawer.beginFrame(0, plan, geometry, transforms); }
-    void maps(std::uint32_t slot = 0) { renderer.recordMaps(driver.commands(), slot, frame, plan, draw); }
-    void mask(std::uint32_t slot = 0) { renderer.recordMask(driver.commands(), slot, frame, plan, inputs); }
+    void maps(std::uint32_t slot = 0) { renderer.recordMaps(driver.commands(), slot, plan, draw); }
+    void mask(std::uint32_t slot = 0) { renderer.recordMask(driver.commands(), slot, plan, inputs); }
     /// All of it, as it should be.
     void record()
     {

@@ -56,7 +56,7 @@ DrawnMaps drawMaps(const Scene& scene, const Plan& given, const ShadowOptions& f
     const Frame frame;
     gpu().run([&](VkCommandBuffer commands) {
         drawer.beginFrame(0, plan, mesh.geometry, transforms);
-        renderer.recordMaps(commands, 0, frame, plan, [&](const vulkan::MapPass& pass) { drawer.draw(pass); });
+        renderer.recordMaps(commands, 0, plan, [&](const vulkan::MapPass& pass) { drawer.draw(pass); });
     });
     DrawnMaps drawn;
     const vulkan::ImageRef maps = renderer.maps();

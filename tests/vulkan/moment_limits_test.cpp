@@ -100,7 +100,7 @@ TEST(MomentCounts, areMadeVisibleToTheHostLast)
         Plan plan = momentPlan(makeScene());
         plan.options = planOptions(blurred(path));
         (void)renderer.prepare(plan, {8, 8});
-        renderer.recordMaps(driver.commands(), 0, Frame(), plan, [](const vulkan::MapPass&) {});
+        renderer.recordMaps(driver.commands(), 0, plan, [](const vulkan::MapPass&) {});
         const auto events = driver.events();
         const auto last_work = std::find_if(events.rbegin(), events.rend(), [](const NullEvent& event) {
             return event.kind == Kind::dispatch || event.kind == Kind::end_rendering;
@@ -137,7 +137,7 @@ TEST(MomentsAtRest, takeNoShaderAtAll)
                 profiler.beginFrame(commands, 0);
                 drawer.beginFrame(0, plan, mesh.geometry, transforms);
                 renderer.recordMaps(
-                    commands, 0, frame, plan, [&](const vulkan::MapPass& pass) { drawer.draw(pass); }, &profiler);
+                    commands, 0, plan, [&](const vulkan::MapPass& pass) { drawer.draw(pass); }, &profiler);
             });
             std::uint64_t invocations = 0;
             for (const auto& pass : profiler.results(0)) {

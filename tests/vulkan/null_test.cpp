@@ -57,8 +57,8 @@ public:
         if (profiler != nullptr) {
             profiler->beginFrame(driver.commands(), slot);
         }
-        renderer.recordMaps(driver.commands(), slot, frame, plan, draw, profiler);
-        renderer.recordMask(driver.commands(), slot, frame, plan, inputs, profiler);
+        renderer.recordMaps(driver.commands(), slot, plan, draw, profiler);
+        renderer.recordMask(driver.commands(), slot, plan, inputs, profiler);
     }
 
     std::vector<VkRect2D> passes() const
@@ -178,12 +178,12 @@ TEST(NullRecording, filterableMapsThatHoldAreNeitherDrawnNorFiltered)
         const vulkan::DrawCasters nothing = [](const MapPass&) {
         };
         (void)renderer.prepare(plan, kScreen);
-        renderer.recordMaps(driver.commands(), 0, host.frame, plan, nothing);
+        renderer.recordMaps(driver.commands(), 0, plan, nothing);
         const auto counts = driver.counts();
         const auto heap = heapAllocations();
         EXPECT_EQ(counts.dispatches, path == BlurPath::fragment ? 4U : 6U) << "of two views";
         EXPECT_EQ(counts.draws, path == BlurPath::fragment ? 2U : 0U) << "the second direction of two views";
-        renderer.recordMaps(driver.commands(), 1, host.frame, plan, nothing);
+        renderer.recordMaps(driver.commands(), 1, plan, nothing);
         EXPECT_EQ(driver.counts().dispatches, 2 * counts.dispatches);
         EXPECT_EQ(driver.counts().created, counts.created);
         EXPECT_EQ(driver.counts().descriptor_updates, counts.descriptor_updates);
@@ -191,7 +191,7 @@ TEST(NullRecording, filterableMapsThatHoldAreNeitherDrawnNorFiltered)
             view.redraw = false;
         }
         driver.clearEvents();
-        renderer.recordMaps(driver.commands(), 0, host.frame, plan, nothing);
+        renderer.recordMaps(driver.commands(), 0, plan, nothing);
         EXPECT_TRUE(driver.events().empty()) << "not even a barrier";
         EXPECT_EQ(heapAllocations(), heap);
     }

@@ -249,10 +249,10 @@ Rendered renderParity(const ShadowOptions& options, ParityLights lights)
         for (std::uint32_t slot = 0; slot < kFrames; ++slot) {
             drawer.beginFrame(slot, r.plan, mesh.geometry, transforms);
             fins.beginFrame(slot, mesh.edges, transforms);
-            renderer.recordMaps(commands, slot, frame, r.plan, [&](const MapPass& pass) {
+            renderer.recordMaps(commands, slot, r.plan, [&](const MapPass& pass) {
                 (void)(pass.formats.fins ? fins.draw(pass) : drawer.draw(pass));
             });
-            renderer.recordMask(commands, slot, frame, r.plan, inputs);
+            renderer.recordMask(commands, slot, r.plan, inputs);
         }
     });
     readBack(renderer, options, r);

@@ -94,7 +94,7 @@ Frame PlannedScene::frameOf(std::span<const Light> lights) const
     return frame;
 }
 
-std::vector<std::byte> PlannedScene::draw(Drawing& drawing, const Frame& frame, const Plan& plan, std::uint32_t slot,
+std::vector<std::byte> PlannedScene::draw(Drawing& drawing, const Plan& plan, std::uint32_t slot,
                                           vulkan::Profiler* profiler)
 {
     (void)drawing.renderer.prepare(plan, inputs_.extent);
@@ -105,14 +105,14 @@ std::vector<std::byte> PlannedScene::draw(Drawing& drawing, const Frame& frame, 
         }
         drawing.drawer.beginFrame(slot, plan, mesh_.geometry, transforms);
         drawing.fins.beginFrame(slot, mesh_.edges, transforms);
-        drawing.renderer.recordBounds(commands, slot, frame, plan, inputs_, profiler);
+        drawing.renderer.recordBounds(commands, slot, plan, inputs_, profiler);
         drawing.renderer.recordMaps(
-            commands, slot, frame, plan,
+            commands, slot, plan,
             [&](const vulkan::MapPass& pass) {
                 (void)(pass.formats.fins ? drawing.fins.draw(pass) : drawing.drawer.draw(pass));
             },
             profiler);
-        drawing.renderer.recordMask(commands, slot, frame, plan, inputs_, profiler);
+        drawing.renderer.recordMask(commands, slot, plan, inputs_, profiler);
     });
     const vulkan::ImageRef mask = drawing.renderer.mask();
     const std::uint32_t layers = drawing.compact.channels > 0 ? mask.layers : plan.mask_layers;

@@ -38,8 +38,8 @@ public:
     /// A box moves, for maps alone: the picture stays.
     void moveCaster();
     /// All layers of the mask, one after the other.
-    [[nodiscard]] std::vector<std::byte> draw(Drawing& drawing, const Frame& frame, const Plan& plan,
-                                              std::uint32_t slot = 0, vulkan::Profiler* profiler = nullptr);
+    [[nodiscard]] std::vector<std::byte> draw(Drawing& drawing, const Plan& plan, std::uint32_t slot = 0,
+                                              vulkan::Profiler* profiler = nullptr);
     [[nodiscard]] const SceneMesh& mesh() const { return mesh_; }
 
 private:

@@ -99,14 +99,13 @@ protected:
             }
         }
     }
-    void record(Bench& bench, const Frame& frame, const Plan& plan)
+    void record(Bench& bench, const Plan& plan)
     {
         (void)bench.renderer.prepare(plan, kScreen);
         const auto transforms = kept_.scene.transforms();
         gpu().run([&](VkCommandBuffer commands) {
             bench.drawer.beginFrame(0, plan, bench.mesh.geometry, transforms);
-            bench.renderer.recordMaps(commands, 0, frame, plan,
-                                      [&](const vulkan::MapPass& pass) { bench.drawer.draw(pass); });
+            bench.renderer.recordMaps(commands, 0, plan, [&](const vulkan::MapPass& pass) { bench.drawer.draw(pass); });
         });
     }
     /// Bytes of the views' maps that are not the same.

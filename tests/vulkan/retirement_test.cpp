@@ -61,11 +61,10 @@ public:
         inputs.extent = screen;
         drawer.beginFrame(slot, plan_, geometry, transforms);
         const std::uint64_t pipelines = driver.counts().pipelines;
-        renderer.recordBounds(driver.commands(), slot, frame, plan_, inputs);
-        renderer.recordMaps(driver.commands(), slot, frame, plan_,
-                            [this](const vulkan::MapPass& pass) { drawer.draw(pass); });
+        renderer.recordBounds(driver.commands(), slot, plan_, inputs);
+        renderer.recordMaps(driver.commands(), slot, plan_, [this](const vulkan::MapPass& pass) { drawer.draw(pass); });
         made_while_recording += driver.counts().pipelines - pipelines;
-        renderer.recordMask(driver.commands(), slot, frame, plan_, inputs);
+        renderer.recordMask(driver.commands(), slot, plan_, inputs);
     }
     void expectNoMistakes(const std::string& what) const
     {
@@ -176,7 +175,7 @@ TEST_P(Retired, theDriverSeesWhatIsFreedTooEarly)
     Frame frame;
     frame.lights = lights;
     (void)renderer->prepare(plan, {64, 48});
-    renderer->recordMaps(driver.commands(), 0, frame, plan, [](const vulkan::MapPass&) {});
+    renderer->recordMaps(driver.commands(), 0, plan, [](const vulkan::MapPass&) {});
     renderer.reset();
     EXPECT_GT(driver.counts().freed_in_use, 0U);
 }

@@ -143,7 +143,7 @@ TEST(Soak, OfDrawnFramesHoldsItsMemoryAndIsSilent)
                 Frame frame = scene.frameOf(lights);
                 frame.index = index++;
                 frame.time_s = 0.1 * static_cast<double>(frame.index);
-                (void)scene.draw(drawing, frame, planner.plan(frame), k % 2);
+                (void)scene.draw(drawing, planner.plan(frame), k % 2);
             }
         }
         end = {deviceBytes(), heapBytes(), residentBytes()};

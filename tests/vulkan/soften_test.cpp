@@ -168,7 +168,7 @@ TEST(Soften, EightLightsShareTwoLayersAndTheImagesOfTheBlur)
         Planner planner(optionsFrom("filter=pcf soften=blur map-size=64"));
         const Frame frame = scene.frameOf(std::span(lights).first(count));
         const Plan& plan = planner.plan(frame);
-        (void)scene.draw(drawing, frame, plan);
+        (void)scene.draw(drawing, plan);
         EXPECT_EQ(plan.mask_layers, count == 8 ? 2U : 1U);
         EXPECT_EQ(drawing.renderer.mask().layers, plan.mask_layers);
         bytes[count == 8 ? 1 : 0] = bytesOf(drawing.renderer, "screen blur");
@@ -192,7 +192,7 @@ TEST(Soften, LightsOfOneLayerHaveEachTheirOwn)
         Drawing drawing(gpu(), scene.mesh());
         Planner planner(options);
         const Frame frame = scene.frameOf(lights);
-        return scene.draw(drawing, frame, planner.plan(frame));
+        return scene.draw(drawing, planner.plan(frame));
     };
     const auto together = drawn(several);
     for (std::uint32_t one = 0; one < 3; ++one) { // all lights by one of them
@@ -220,7 +220,7 @@ TEST(Soften, FollowsEveryOtherPassOfTheMask)
     Planner planner(mixed);
     for (int i = 0; i < 3; ++i) {
         const Frame frame = scene.frameOf(both);
-        (void)scene.draw(drawing, frame, planner.plan(frame));
+        (void)scene.draw(drawing, planner.plan(frame));
     }
     for (const char* const line :
          {"filter=pcf soften=blur motion=step-alternate map-size=64",
@@ -245,7 +245,7 @@ TEST(Soften, IsMadeAnewForAnotherSizeAndWithoutNormals)
     Planner planner(optionsOf("soften=blur soften.size=half"));
     const auto draw = [&] {
         const Frame frame = scene.frameOf(lights);
-        return scene.draw(drawing, frame, planner.plan(frame));
+        return scene.draw(drawing, planner.plan(frame));
     };
     (void)draw();
     const VkDeviceSize before = bytesOf(drawing.renderer, "screen blur");

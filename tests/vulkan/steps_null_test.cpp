@@ -54,8 +54,8 @@ public:
     {
         names.name(plan);
         driver.beginSlot(slot);
-        renderer.recordMaps(driver.commands(), slot, frame, plan, [](const vulkan::MapPass&) {});
-        renderer.recordMask(driver.commands(), slot, frame, plan, inputs);
+        renderer.recordMaps(driver.commands(), slot, plan, [](const vulkan::MapPass&) {});
+        renderer.recordMask(driver.commands(), slot, plan, inputs);
     }
     std::vector<VkRect2D> passes() const
     {

@@ -78,8 +78,7 @@ protected:
         const std::vector<vulkan::Rows3x4> transforms = bench.scene.transforms();
         gpu().run([&](VkCommandBuffer commands) {
             drawer.beginFrame(0, bench.plan, bench.mesh.geometry, transforms);
-            bench.renderer.recordMaps(commands, 0, bench.frame, bench.plan,
-                                      [&](const vulkan::MapPass& pass) { drawer.draw(pass); });
+            bench.renderer.recordMaps(commands, 0, bench.plan, [&](const vulkan::MapPass& pass) { drawer.draw(pass); });
         });
         return {bench.readMap(0), bench.readMap(1)};
     }

@@ -186,8 +186,7 @@ TEST_P(VertexFormats, giveTheSameMaps)
     const std::vector<Rows3x4> transforms = transformsFor(options.vertices);
     gpu().run([&](VkCommandBuffer commands) {
         drawer.beginFrame(0, bench_.plan, geometry, transforms);
-        bench_.renderer.recordMaps(commands, 0, bench_.frame, bench_.plan,
-                                   [&](const vulkan::MapPass& pass) { drawer.draw(pass); });
+        bench_.renderer.recordMaps(commands, 0, bench_.plan, [&](const vulkan::MapPass& pass) { drawer.draw(pass); });
     });
     for (std::uint32_t layer = 0; layer < 2; ++layer) {
         const std::vector<float> map = bench_.readMap(layer);

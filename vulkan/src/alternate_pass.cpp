@@ -144,13 +144,12 @@ void AlternatePass::remember(const Plan& plan)
     }
 }
 
-void AlternatePass::recordLayer(VkCommandBuffer commands, const Frame& frame, const Plan& plan, std::uint32_t layer,
-                                const Image& mask)
+void AlternatePass::recordLayer(VkCommandBuffer commands, const Plan& plan, std::uint32_t layer, const Image& mask)
 {
     beginJoining(device_, commands, mask.info().extent,
                  std::array{mask.layer(layer), history_.now().surfaces.layer(layer)});
     Push push{};
-    push.before = history_.reprojection(frame);
+    push.before = history_.reprojection(plan);
     push.before.eye.w = static_cast<float>(layer);
     push.weights = weightsOfBefore(plan, layer);
     device_.vk.CmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
@@ -158,7 +157,7 @@ void AlternatePass::recordLayer(VkCommandBuffer commands, const Frame& frame, co
     device_.vk.CmdEndRendering(commands);
 }
 
-void AlternatePass::record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+void AlternatePass::record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan,
                            const AlternateInputs& inputs, const Image& mask)
 {
     const VkDescriptorSet set = slots_[slot][history_.turn()];
@@ -169,11 +168,11 @@ void AlternatePass::record(VkCommandBuffer commands, std::uint32_t slot, const F
     device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, made->pipeline.get());
     device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set, 0, nullptr);
     for (std::uint32_t layer = 0; layer < mask.info().layers; ++layer) {
-        recordLayer(commands, frame, plan, layer, mask);
+        recordLayer(commands, plan, layer, mask);
     }
     device_.endLabel(commands);
     remember(plan);
-    history_.end(commands, frame);
+    history_.end(commands, plan);
 }
 
 } // namespace gnomon::vulkan

@@ -31,8 +31,8 @@ public:
     /// Where the visibility by this frame's maps alone is to be drawn; afterwards it is readable by fragment shaders.
     [[nodiscard]] const Image& target() const { return history_.now().visibility; }
     /// All layers. The mask is in COLOR_ATTACHMENT_OPTIMAL.
-    void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
-                const AlternateInputs& inputs, const Image& mask);
+    void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const AlternateInputs& inputs,
+                const Image& mask);
 
 private:
     struct LightHistory {
@@ -42,8 +42,7 @@ private:
     };
     void writeSet(VkDescriptorSet set, const AlternateInputs& inputs);
     [[nodiscard]] Pipeline makePipeline(VkFormat mask_format);
-    void recordLayer(VkCommandBuffer commands, const Frame& frame, const Plan& plan, std::uint32_t layer,
-                     const Image& mask);
+    void recordLayer(VkCommandBuffer commands, const Plan& plan, std::uint32_t layer, const Image& mask);
     [[nodiscard]] glm::vec4 weightsOfBefore(const Plan& plan, std::uint32_t layer) const;
     void remember(const Plan& plan);
 

@@ -78,7 +78,7 @@ void CascadeFitter::dispatch(VkCommandBuffer commands, Pass pass, const glm::uve
     device_.vk.CmdDispatch(commands, groups.x, groups.y, groups.z);
 }
 
-void CascadeFitter::record(VkCommandBuffer commands, std::uint32_t slot_index, const Frame& frame, const Plan& plan,
+void CascadeFitter::record(VkCommandBuffer commands, std::uint32_t slot_index, const Plan& plan,
                            const MaskInputs& inputs)
 {
     assert(slot_index < slots_.size() && inputs.depth != VK_NULL_HANDLE);
@@ -87,7 +87,7 @@ void CascadeFitter::record(VkCommandBuffer commands, std::uint32_t slot_index, c
     const glm::uvec2 screen_px(inputs.extent.width, inputs.extent.height);
     auto* const described = static_cast<shared::GpuCascadeLight*>(slot.lights.data());
     const std::uint32_t lights =
-        pack::fillCascadeLights(frame, plan, screen_px, {described, slot.lights.size() / sizeof *described});
+        pack::fillCascadeLights(plan, screen_px, {described, slot.lights.size() / sizeof *described});
     slot.view_count = static_cast<std::uint32_t>(plan.views.size());
     fitted_frame_ = plan.frame;
 

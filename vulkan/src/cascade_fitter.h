@@ -20,8 +20,7 @@ public:
     /// Makes the pipelines, if they are not there.
     void warmUp();
     /// Afterwards views() is visible to vertex shaders, as attribute and as storage buffer, and to COMPUTE_SHADER.
-    void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
-                const MaskInputs& inputs);
+    void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs);
     /// Has the plan views for it?
     [[nodiscard]] static bool fits(const Plan& plan);
     /// Has record() been given this plan, or does it need none?

@@ -158,12 +158,12 @@ bool ConvergePass::goesOn(const Plan& plan) const
     return isAgain(plan) || (!plan.cut && planner_ == plan.planner && number_ + 1 == plan.number);
 }
 
-std::uint32_t ConvergePass::stood(const Frame& frame, const Plan& plan) const
+std::uint32_t ConvergePass::stood(const Plan& plan) const
 {
-    bool stands = goesOn(plan) && history_.stands(frame) && plan.moved_ws.empty();
+    bool stands = goesOn(plan) && history_.stands(plan) && plan.moved_ws.empty();
     for (std::size_t i = 0; stands && i < plan.lights.size(); ++i) {
         const Light& before = lights_[i].light;
-        const Light& now = frame.lights[i];
+        const Light& now = plan.made_for.lights[i];
         stands = !lights_[i].known || (isSameLight(before, now) && moveOf(before, now) == 0.0);
     }
     return stands ? stood_ + 1 : 0;
@@ -175,11 +175,11 @@ bool ConvergePass::isAgain(const Plan& plan) const
     return planner_ == plan.planner && number_ == plan.number;
 }
 
-void ConvergePass::fillLight(const Frame& frame, const Plan& plan, std::size_t index, std::uint32_t stood_frames,
+void ConvergePass::fillLight(const Plan& plan, std::size_t index, std::uint32_t stood_frames,
                              shared::GpuConverge& out) const
 {
     const LightPlan& planned = plan.lights[index];
-    const Light& light = frame.lights[index];
+    const Light& light = plan.made_for.lights[index];
     const LightBefore& before = lights_[index];
     if (!pack::joinsFrames(planned) || !before.known || !isSameLight(before.light, light) ||
         before.place != maskPlaceOf(planned)) {
@@ -187,7 +187,7 @@ void ConvergePass::fillLight(const Frame& frame, const Plan& plan, std::size_t i
     }
     const double move = moveOf(before.light, light);
     const bool parallel = light.type == LightType::directional;
-    const glm::dvec3 to_light = light.position_ws - frame.camera.eye_ws;
+    const glm::dvec3 to_light = light.position_ws - plan.made_for.camera.eye_ws;
     const double size = parallel ? std::tan(0.5 * light.angular_diameter_rad) : light.radius_m;
     const bool whole = (*plan.options)[planned.options].integratesLight();
     const float power = shared::confidencePower(static_cast<float>(stood_frames),
@@ -208,7 +208,7 @@ void ConvergePass::fillLight(const Frame& frame, const Plan& plan, std::size_t i
 }
 
 /// Returns whether the camera stands and nothing moved.
-bool ConvergePass::fill(const Slot& slot, const Frame& frame, const Plan& plan, bool has_normals)
+bool ConvergePass::fill(const Slot& slot, const Plan& plan, bool has_normals)
 {
     static_assert(shared::kMovedBoxes == static_cast<int>(kMostMoved));
     const std::span layers(static_cast<shared::GpuConverge*>(slot.layers.data()), target_.info().layers);
@@ -216,8 +216,8 @@ bool ConvergePass::fill(const Slot& slot, const Frame& frame, const Plan& plan, 
     if (!goesOn(plan)) {
         return false;
     }
-    const bool still = history_.stands(frame);
-    const Reprojection before = history_.reprojection(frame);
+    const bool still = history_.stands(plan);
+    const Reprojection before = history_.reprojection(plan);
     for (shared::GpuConverge& layer : layers) {
         layer.before_x = before.x;
         layer.before_y = before.y;
@@ -226,24 +226,25 @@ bool ConvergePass::fill(const Slot& slot, const Frame& frame, const Plan& plan, 
         layer.state = {plan.moved_ws.size(), still ? 1U : 0U, 0U, has_normals && had_normals_ ? 1U : 0U};
         for (std::size_t i = 0; i < plan.moved_ws.size(); ++i) {
             const Aabb& box = plan.moved_ws[i];
-            layer.box[2 * i] = glm::dvec4((glm::dvec3(box.min) + glm::dvec3(box.max)) * 0.5 - frame.camera.eye_ws, 0.0);
+            layer.box[2 * i] =
+                glm::dvec4((glm::dvec3(box.min) + glm::dvec3(box.max)) * 0.5 - plan.made_for.camera.eye_ws, 0.0);
             layer.box[2 * i + 1] = glm::dvec4((glm::dvec3(box.max) - glm::dvec3(box.min)) * 0.5, 0.0);
         }
     }
-    const std::uint32_t stood_frames = stood(frame, plan); // looks at all lights
+    const std::uint32_t stood_frames = stood(plan); // looks at all lights
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
-        fillLight(frame, plan, i, stood_frames, layers[plan.lights[i].mask_layer]);
+        fillLight(plan, i, stood_frames, layers[plan.lights[i].mask_layer]);
     }
     return still && plan.moved_ws.empty();
 }
 
-void ConvergePass::remember(const Frame& frame, const Plan& plan, bool has_normals)
+void ConvergePass::remember(const Plan& plan, bool has_normals)
 {
-    stood_ = stood(frame, plan);
+    stood_ = stood(plan);
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         lights_[i].known = i < plan.lights.size() && pack::joinsFrames(plan.lights[i]);
         if (lights_[i].known) {
-            lights_[i].light = frame.lights[i];
+            lights_[i].light = plan.made_for.lights[i];
             lights_[i].place = maskPlaceOf(plan.lights[i]);
         }
     }
@@ -263,13 +264,13 @@ void ConvergePass::recordLayer(VkCommandBuffer commands, std::uint32_t layer, co
     device_.vk.CmdEndRendering(commands);
 }
 
-void ConvergePass::record(VkCommandBuffer commands, std::uint32_t slot_index, const Frame& frame, const Plan& plan,
+void ConvergePass::record(VkCommandBuffer commands, std::uint32_t slot_index, const Plan& plan,
                           const ConvergeInputs& inputs, const Image& mask)
 {
     const Slot& slot = slots_[slot_index];
     const bool has_normals = inputs.normal != VK_NULL_HANDLE;
     writeSet(slot, inputs);
-    const bool at_rest = fill(slot, frame, plan, has_normals);
+    const bool at_rest = fill(slot, plan, has_normals);
     const VkDescriptorSet set = slot.sets[history_.turn()];
     history_.begin(commands);
     device_.beginLabel(commands, "converge");
@@ -285,8 +286,8 @@ void ConvergePass::record(VkCommandBuffer commands, std::uint32_t slot_index, co
         history_.drop();
         return;
     }
-    remember(frame, plan, has_normals);
-    history_.end(commands, frame);
+    remember(plan, has_normals);
+    history_.end(commands, plan);
 }
 
 } // namespace gnomon::vulkan

@@ -31,12 +31,12 @@ public:
     /// Of target(), by the mask's: floats, which have room for what gnomon/shared/converge.h packs.
     [[nodiscard]] static VkFormat targetFormat(VkFormat mask_format);
     /// Over how many frames in a row, up to this one, neither the camera nor a light nor an object has moved.
-    [[nodiscard]] std::uint32_t stood(const Frame& frame, const Plan& plan) const;
+    [[nodiscard]] std::uint32_t stood(const Plan& plan) const;
     /// Where this frame's visibility alone is to be drawn; afterwards it is to be readable by fragment shaders.
     [[nodiscard]] const Image& target() const { return target_; }
     /// All layers. The mask is in COLOR_ATTACHMENT_OPTIMAL.
-    void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
-                const ConvergeInputs& inputs, const Image& mask);
+    void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const ConvergeInputs& inputs,
+                const Image& mask);
 
 private:
     /// Of a light of the frame before.
@@ -53,11 +53,10 @@ private:
     [[nodiscard]] Pipeline makePipeline(VkFormat mask_format, bool at_rest);
     [[nodiscard]] bool goesOn(const Plan& plan) const;
     [[nodiscard]] bool isAgain(const Plan& plan) const;
-    [[nodiscard]] bool fill(const Slot& slot, const Frame& frame, const Plan& plan, bool has_normals);
-    void fillLight(const Frame& frame, const Plan& plan, std::size_t index, std::uint32_t stood_frames,
-                   shared::GpuConverge& out) const;
+    [[nodiscard]] bool fill(const Slot& slot, const Plan& plan, bool has_normals);
+    void fillLight(const Plan& plan, std::size_t index, std::uint32_t stood_frames, shared::GpuConverge& out) const;
     void recordLayer(VkCommandBuffer commands, std::uint32_t layer, const Image& mask);
-    void remember(const Frame& frame, const Plan& plan, bool has_normals);
+    void remember(const Plan& plan, bool has_normals);
 
     Device& device_;
     VkPipelineCache cache_;

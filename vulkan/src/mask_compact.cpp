@@ -77,9 +77,9 @@ std::uint32_t MaskPassRecorder::lightRoomFor(const Plan& plan) const
     return isCompact() ? std::max(static_cast<std::uint32_t>(plan.lights.size()), 1U) : pack::maskLightCount(plan);
 }
 
-void MaskPassRecorder::describeTiles(const Frame& frame, const Plan& plan, glm::uvec2 size_px)
+void MaskPassRecorder::describeTiles(const Plan& plan, glm::uvec2 size_px)
 {
-    pack::listCompactMask(frame, plan, compact_, size_px, lists_, tiles_);
+    pack::listCompactMask(plan, compact_, size_px, lists_, tiles_);
     now_.tiles.resize(pack::maskTileWords(tiles_));
     pack::fillMaskTiles(tiles_, now_.tiles);
 }

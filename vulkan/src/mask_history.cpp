@@ -92,7 +92,7 @@ void MaskHistory::begin(VkCommandBuffer commands)
     }
 }
 
-void MaskHistory::end(VkCommandBuffer commands, const Frame& frame)
+void MaskHistory::end(VkCommandBuffer commands, const Plan& plan)
 {
     for (const Image* image : written(now())) {
         if (image != nullptr) {
@@ -106,27 +106,28 @@ void MaskHistory::end(VkCommandBuffer commands, const Frame& frame)
             recordBarrier(device_, commands, barrier);
         }
     }
-    camera_ = frame.camera;
+    camera_ = plan.made_for.camera;
     turn_ = 1 - turn_;
     fresh_ = false;
 }
 
-Reprojection MaskHistory::reprojection(const Frame& frame) const
+Reprojection MaskHistory::reprojection(const Plan& plan) const
 {
     const VkExtent2D extent = now().visibility.info().extent;
-    const glm::dmat4 before_from_eye = camera_.clip_from_world * glm::translate(glm::dmat4(1.0), frame.camera.eye_ws);
+    const glm::dmat4 before_from_eye =
+        camera_.clip_from_world * glm::translate(glm::dmat4(1.0), plan.made_for.camera.eye_ws);
     const glm::dvec4 w = glm::row(before_from_eye, 3);
     // This pixel stands for where it would look without jitter, and so does that one.
-    const glm::dvec2 shift = frame.camera.jitter_px - camera_.jitter_px;
+    const glm::dvec2 shift = plan.made_for.camera.jitter_px - camera_.jitter_px;
     return {(glm::row(before_from_eye, 0) + w) * (0.5 * extent.width) + w * shift.x,
             (glm::row(before_from_eye, 1) + w) * (0.5 * extent.height) + w * shift.y, w,
-            glm::dvec4(frame.camera.eye_ws - camera_.eye_ws, 0.0)};
+            glm::dvec4(plan.made_for.camera.eye_ws - camera_.eye_ws, 0.0)};
 }
 
-bool MaskHistory::stands(const Frame& frame) const
+bool MaskHistory::stands(const Plan& plan) const
 {
     const VkExtent2D extent = now().visibility.info().extent;
-    return sameSight(camera_, frame.camera, {extent.width, extent.height});
+    return sameSight(camera_, plan.made_for.camera, {extent.width, extent.height});
 }
 
 void beginJoining(const Device& device, VkCommandBuffer commands, VkExtent2D extent,

@@ -59,14 +59,14 @@ public:
     /// left, if there was none, into SHADER_READ_ONLY_OPTIMAL.
     void begin(VkCommandBuffer commands);
     /// Makes what the pass wrote readable by fragment shaders, and this frame the one before.
-    void end(VkCommandBuffer commands, const Frame& frame);
+    void end(VkCommandBuffer commands, const Plan& plan);
     /// After begin(), instead of end(): what the pass wrote is of no use, and the frame before stays what it is.
     void drop() { fresh_ = false; }
     /// From this frame to the one before, in pixels of the mask, as if neither camera were jittered. Of use from the
     /// second frame on, as what follows.
-    [[nodiscard]] Reprojection reprojection(const Frame& frame) const;
+    [[nodiscard]] Reprojection reprojection(const Plan& plan) const;
     /// Does the camera, but for its jitter, stand as it did?
-    [[nodiscard]] bool stands(const Frame& frame) const;
+    [[nodiscard]] bool stands(const Plan& plan) const;
 
 private:
     [[nodiscard]] std::array<const Image*, 2> written(const Images& images) const;

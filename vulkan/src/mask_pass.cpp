@@ -268,20 +268,20 @@ void placeTints(const Plan& plan, const MapClasses& maps, std::span<shared::GpuV
 }
 
 /// Beside what the lights with maps have drawn.
-void MaskPassRecorder::recordVolumes(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+void MaskPassRecorder::recordVolumes(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan,
                                      const MaskInputs& inputs, const Image& target)
 {
     if (VolumePassRecorder::draws(plan)) {
-        volumes_->record(commands, slot, frame, plan, inputs, {slots_[slot].constants.buffer(), room_.constants_stride},
+        volumes_->record(commands, slot, plan, inputs, {slots_[slot].constants.buffer(), room_.constants_stride},
                          target);
     }
 }
 
-void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index, const Frame& frame, const Plan& plan,
+void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index, const Plan& plan,
                               const MaskInputs& inputs, const MapClasses& maps, CascadeFitter& fitter)
 {
     assert(slot_index < slots_.size());
-    assert(frame.lights.size() == plan.lights.size() && plan.views.size() <= room_.views);
+    assert(plan.made_for.lights.size() == plan.lights.size() && plan.views.size() <= room_.views);
     assert(inputs.depth != VK_NULL_HANDLE);
     assert(inputs.extent.width == mask_.info().extent.width && inputs.extent.height == mask_.info().extent.height);
     drawn_is_known_ = false; // until all of it is there
@@ -304,18 +304,18 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     if (std::ranges::any_of(plan.lights, [&](const LightPlan& light) { return pack::halvesMask(plan, light); })) {
         recordHalved(commands, slot_index, plan, inputs, drawn);
     }
-    recordVolumes(commands, slot_index, frame, plan, inputs, drawn);
+    recordVolumes(commands, slot_index, plan, inputs, drawn);
     toReadable(device_, commands, drawn);
     if (takes_turns) {
         toAttachment(device_, commands, joined);
-        alternate_->record(commands, slot_index, frame, plan, seen, joined);
+        alternate_->record(commands, slot_index, plan, seen, joined);
         toReadable(device_, commands, joined);
     } else if (alternate_) {
         alternate_->forget();
     }
     if (converges) {
         toAttachment(device_, commands, mask_);
-        converge_->record(commands, slot_index, frame, plan,
+        converge_->record(commands, slot_index, plan,
                           {inputs.depth, inputs.depth_layout, inputs.normal, slot.constants.buffer()}, mask_);
         toReadable(device_, commands, mask_);
     }

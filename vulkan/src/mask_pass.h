@@ -56,15 +56,14 @@ public:
     /// record() whose shape nobody told makes its own.
     bool prepare(const Plan& plan, VkExtent2D screen, const MapClasses& maps);
     /// Finds what this frame's mask is drawn from: before all below. `map_changes`: MapNotes::changes().
-    void describe(const Frame& frame, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps,
-                  std::uint64_t map_changes);
+    void describe(const Plan& plan, const MaskInputs& inputs, const MapClasses& maps, std::uint64_t map_changes);
     /// Is the mask that was described the one that mask() has?
     [[nodiscard]] bool holds() const { return now_.inputs != 0 && drawn_is_known_ && now_ == drawn_; }
     /// Instead of record() and recordSoften(), where it is.
     void keep(std::uint32_t slot);
     /// Draws what was described.
-    void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
-                const MaskInputs& inputs, const MapClasses& maps, CascadeFitter& fitter);
+    void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
+                const MapClasses& maps, CascadeFitter& fitter);
     /// Blurs what record() left, for a plan that wants it.
     void recordSoften(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs);
     /// Did prepare() make what recordSoften() needs for this plan?
@@ -102,9 +101,9 @@ private:
     [[nodiscard]] std::uint32_t layersFor(const Plan& plan) const;
     [[nodiscard]] std::uint32_t channelsFor(const Plan& plan) const;
     [[nodiscard]] std::uint32_t lightRoomFor(const Plan& plan) const;
-    void describeTiles(const Frame& frame, const Plan& plan, glm::uvec2 size_px);
-    void describeConstants(const Frame& frame, const Plan& plan, glm::uvec2 screen_px,
-                           const pack::DrawPrecision& precision, const MapClasses& maps);
+    void describeTiles(const Plan& plan, glm::uvec2 size_px);
+    void describeConstants(const Plan& plan, glm::uvec2 screen_px, const pack::DrawPrecision& precision,
+                           const MapClasses& maps);
     void fillTiles(Slot& slot);
 
     void makeLayouts();
@@ -129,8 +128,8 @@ private:
     void recordLayers(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target);
     void recordHalved(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
                       const Image& target);
-    void recordVolumes(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
-                       const MaskInputs& inputs, const Image& target);
+    void recordVolumes(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
+                       const Image& target);
     void makePipelines(const Plan& plan, MaskShape shape);
     void warmUpDraws(const ResolvedOptions& options, const WarmUp& what, bool to_converge);
     // In every frame, and not only where a handle is another one: a view that was made after its predecessor was

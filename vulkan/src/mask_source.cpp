@@ -65,37 +65,40 @@ pack::DrawPrecision precisionOf(const Device& device, const MaskInputs& inputs, 
 
 } // namespace
 
-void MaskPassRecorder::describe(const Frame& frame, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps,
+void MaskPassRecorder::describe(const Plan& plan, const MaskInputs& inputs, const MapClasses& maps,
                                 std::uint64_t map_changes)
 {
-    assert(frame.lights.size() == plan.lights.size() && plan.views.size() <= room_.views);
+    assert(plan.made_for.lights.size() == plan.lights.size() && plan.views.size() <= room_.views);
     shape_ =
         MaskShape{inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE, inputs.smooth != VK_NULL_HANDLE};
     const glm::uvec2 size_px(inputs.extent.width, inputs.extent.height);
-    const bool counts = VolumePassRecorder::draws(plan) && frame.objects != nullptr;
+    const bool counts = VolumePassRecorder::draws(plan);
     now_.inputs = nameOfInputs(plan, inputs);
     now_.map_changes = map_changes;
     now_.options = plan.options;
     now_.shape = *shape_;
     now_.pieces = inputs.object_pieces;
-    now_.objects = counts ? frame.objects->identity() : 0;
-    now_.version = counts ? frame.objects->version() : 0;
-    now_.camera = counts ? frame.camera : Camera{};
-    now_.lights.assign(frame.lights.begin(), counts ? frame.lights.end() : frame.lights.begin());
+    now_.objects = counts ? plan.made_for.objects : 0;
+    now_.version = counts ? plan.made_for.version : 0;
+    now_.camera = counts ? plan.made_for.camera : Camera{};
+    now_.lights.clear();
+    if (counts) {
+        now_.lights = plan.made_for.lights;
+    }
     if (isCompact()) {
-        describeTiles(frame, plan, size_px);
+        describeTiles(plan, size_px);
         pack::listCompactMaskDraws(plan, compact_, size_px, now_.draws);
     } else {
-        pack::listMaskDraws(frame, plan, size_px, now_.draws);
+        pack::listMaskDraws(plan, size_px, now_.draws);
     }
     if (!now_.numbers.empty()) {
-        pack::fillObjects(frame, plan, now_.numbers);
+        pack::fillObjects(plan, now_.numbers);
     }
-    describeConstants(frame, plan, size_px, precisionOf(device_, inputs, frame.camera), maps);
+    describeConstants(plan, size_px, precisionOf(device_, inputs, plan.made_for.camera), maps);
 }
 
-void MaskPassRecorder::describeConstants(const Frame& frame, const Plan& plan, glm::uvec2 screen_px,
-                                         const pack::DrawPrecision& precision, const MapClasses& maps)
+void MaskPassRecorder::describeConstants(const Plan& plan, glm::uvec2 screen_px, const pack::DrawPrecision& precision,
+                                         const MapClasses& maps)
 {
     std::byte* const bytes = now_.constants.data();
     for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
@@ -105,19 +108,19 @@ void MaskPassRecorder::describeConstants(const Frame& frame, const Plan& plan, g
             map_images_[i] = {{info.extent.width, info.extent.height}, info.levels};
         }
         auto& constants = *reinterpret_cast<shared::GpuConstants*>(bytes + i * room_.constants_stride);
-        pack::fillConstants(frame, plan, i, screen_px, map_images_[i], precision, constants);
+        pack::fillConstants(plan, i, screen_px, map_images_[i], precision, constants);
         if (drawsToConverge(plan) && weighsFrames((*plan.options)[i])) {
-            constants.rule.moments.w = static_cast<std::int32_t>(converge_->stood(frame, plan));
+            constants.rule.moments.w = static_cast<std::int32_t>(converge_->stood(plan));
         }
     }
     const std::span lights(reinterpret_cast<shared::GpuLight*>(bytes + room_.lights_at), room_.lights);
     if (isCompact()) {
-        pack::fillLights(frame, plan, lights);
+        pack::fillLights(plan, lights);
     } else {
-        pack::fillMaskLights(frame, plan, now_.draws, lights);
+        pack::fillMaskLights(plan, now_.draws, lights);
     }
     const std::span views(reinterpret_cast<shared::GpuView*>(bytes + room_.views_at), room_.views);
-    pack::fillViews(frame, plan, map_images_, views);
+    pack::fillViews(plan, map_images_, views);
     placeTints(plan, maps, views);
 }
 

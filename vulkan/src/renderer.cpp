@@ -107,23 +107,23 @@ bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
     return changed;
 }
 
-void ShadowRenderer::recordBounds(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+void ShadowRenderer::recordBounds(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan,
                                   const MaskInputs& inputs, Profiler* profiler)
 {
     constexpr const char* kTried = "record shadow bounds";
     impl_->parts->checkUse(kTried, commands, slot, plan);
     if (CascadeFitter::fits(plan)) {
-        impl_->parts->checkInputs(kTried, frame, plan, inputs);
+        impl_->parts->checkInputs(kTried, plan, inputs);
     }
     impl_->device.enter(slot, Retirement::Work::bounds);
     if (pack::has(impl_->parts->passes, pack::FramePassKind::bounds)) {
         const Timed timed(profiler, commands, "shadow bounds");
-        impl_->whole([&](RendererParts& parts) { parts.fitter.record(commands, slot, frame, plan, inputs); });
+        impl_->whole([&](RendererParts& parts) { parts.fitter.record(commands, slot, plan, inputs); });
     }
 }
 
-void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[maybe_unused]] const Frame& frame,
-                                const Plan& plan, const DrawCasters& draw, Profiler* profiler)
+void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const DrawCasters& draw,
+                                Profiler* profiler)
 {
     constexpr const char* kTried = "record shadow maps";
     impl_->parts->checkUse(kTried, commands, slot, plan);
@@ -156,13 +156,13 @@ void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[
     });
 }
 
-void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan,
                                 const MaskInputs& inputs, Profiler* profiler)
 {
     constexpr const char* kTried = "record the mask";
     impl_->parts->checkUse(kTried, commands, slot, plan);
     impl_->parts->checkFitted(kTried, plan);
-    impl_->parts->checkInputs(kTried, frame, plan, inputs);
+    impl_->parts->checkInputs(kTried, plan, inputs);
     if (inputs.object_id == VK_NULL_HANDLE &&
         std::ranges::any_of(plan.lights, [](const LightPlan& light) { return light.first_object_id != kNoIndex; })) {
         refuseUse(kTried, "filters id and depth-id tell objects apart, and MaskInputs::object_id is null",
@@ -189,7 +189,7 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
     impl_->device.enter(slot, Retirement::Work::mask);
     bool kept = false;
     impl_->whole([&](RendererParts& parts) {
-        parts.mask.describe(frame, plan, inputs, parts.classes, parts.notes.changes());
+        parts.mask.describe(plan, inputs, parts.classes, parts.notes.changes());
         kept = parts.mask.holds();
         if (kept) {
             parts.mask.keep(slot);
@@ -206,7 +206,7 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
                 maps->recorder->makeReadable(commands);
             }
         }
-        parts.mask.record(commands, slot, frame, plan, inputs, parts.classes, parts.fitter);
+        parts.mask.record(commands, slot, plan, inputs, parts.classes, parts.fitter);
     });
     timed.reset();
     if (softens) {

@@ -43,11 +43,8 @@ void RendererParts::checkPrepared(const char* tried, const Plan& plan) const
     }
 }
 
-void RendererParts::checkInputs(const char* tried, const Frame& frame, const Plan& plan, const MaskInputs& inputs) const
+void RendererParts::checkInputs(const char* tried, const Plan& plan, const MaskInputs& inputs) const
 {
-    if (frame.lights.size() != plan.lights.size()) {
-        refuseUse(tried, "the frame has other lights than the plan", "hand in the frame that was planned");
-    }
     if (inputs.depth == VK_NULL_HANDLE) {
         refuseUse(tried, "MaskInputs::depth is null", "hand in the camera's depth");
     }

@@ -306,12 +306,12 @@ void VolumePassRecorder::countLight(const Job& job, const pack::VolumeDraw& draw
     pass.commands = job.commands;
     pass.colour = job.format;
     pass.depth_stencil = depth_stencil_;
-    pass.reversed_z = job.frame.camera.reversed_z;
+    pass.reversed_z = job.plan.made_for.camera.reversed_z;
     pass.plan = &job.plan;
     pass.light = draw.light;
     pass.casters = std::span(job.plan.casters).subspan(light.first_volume, light.volume_count);
-    pass.clip_from_eye = clipFromEye(job.frame.camera);
-    pass.eye_ws = job.frame.camera.eye_ws;
+    pass.clip_from_eye = clipFromEye(job.plan.made_for.camera);
+    pass.eye_ws = job.plan.made_for.camera.eye_ws;
     pass.place = draw.place;
     job.inputs.volumes(pass);
 }
@@ -330,17 +330,17 @@ void VolumePassRecorder::drawLight(const Job& job, const pack::VolumeDraw& draw)
     }
 }
 
-void VolumePassRecorder::record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+void VolumePassRecorder::record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan,
                                 const MaskInputs& inputs, const ConstantsRef& constants, const Image& target)
 {
     const VkExtent2D extent = target.info().extent;
-    pack::listVolumeDraws(frame, plan, {extent.width, extent.height}, draws_);
+    pack::listVolumeDraws(plan, {extent.width, extent.height}, draws_);
     if (draws_.empty()) {
         return;
     }
     writeSets(slot, inputs, constants);
     device_.beginLabel(commands, "shadow volumes");
-    const Job job{commands, slot, frame, plan, inputs, target.info().format};
+    const Job job{commands, slot, plan, inputs, target.info().format};
     for (std::uint32_t layer = 0; layer < target.info().layers; ++layer) {
         const auto is_here = [&](const pack::VolumeDraw& draw) {
             return draw.layer == layer;

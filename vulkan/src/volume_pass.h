@@ -29,8 +29,8 @@ public:
     void prepare(const Plan& plan, VkExtent2D screen, VkFormat mask_format, const MaskShape& shape);
     void warmUp(VkFormat mask_format, std::uint32_t channels, const MaskShape& shape);
     /// All of them, to `target`, which is in COLOR_ATTACHMENT_OPTIMAL and has what the other lights have drawn.
-    void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
-                const MaskInputs& inputs, const ConstantsRef& constants, const Image& target);
+    void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
+                const ConstantsRef& constants, const Image& target);
 
 private:
     struct Key {
@@ -51,7 +51,6 @@ private:
     struct Job {
         VkCommandBuffer commands;
         std::uint32_t slot;
-        const Frame& frame;
         const Plan& plan;
         const MaskInputs& inputs;
         VkFormat format; // of the mask

@@ -5,6 +5,7 @@
 
 #include <gnomon/choices.h>
 #include <gnomon/export.h>
+#include <gnomon/frame.h>
 #include <gnomon/geometry.h>
 #include <gnomon/options.h>
 
@@ -387,9 +388,20 @@ struct MapPages {
     std::uint32_t longest_wait = 0;   // frames
 };
 
+/// Of the frame that a plan was made for, what those go by who draw by it.
+struct PlannedFrame {
+    Camera camera;
+    glm::uvec2 size_px{0};     // Frame::size_px
+    std::vector<Light> lights; // as the host gave them
+    Aabb scene_ws{};           // around all objects, ObjectSet::bounds()
+    std::uint64_t objects = 0; // ObjectSet::identity(); 0: there were none
+    std::uint64_t version = 0; // ObjectSet::version()
+};
+
 /// What there is to draw in one frame, and what each light came to.
 struct Plan {
     std::uint64_t frame = 0; // Frame::index
+    PlannedFrame made_for;
     /// Differs between any two planners of a process. Maps of two planners may lie at the same place under different
     /// names, so a backend that is handed another planner's plan forgets what it noted of the last one's maps.
     std::uint64_t planner = 0;

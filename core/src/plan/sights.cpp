@@ -53,6 +53,12 @@ void Sights::begin(const Frame& frame, Plan& plan)
         setup.looked = false;
     }
     plan.lights.clear();
+    plan.made_for.camera = frame.camera;
+    plan.made_for.size_px = frame.size_px;
+    plan.made_for.lights.assign(frame.lights.begin(), frame.lights.end());
+    plan.made_for.scene_ws = frame.objects->bounds();
+    plan.made_for.objects = frame.objects->identity();
+    plan.made_for.version = frame.objects->version();
 }
 
 /// Where lights do not say how near their casters begin, the bounds of what casts do.

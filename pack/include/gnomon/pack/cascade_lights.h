@@ -27,7 +27,7 @@ namespace gnomon::pack {
 [[nodiscard]] GNOMON_API std::uint32_t cascadeLightCount(const Plan& plan);
 /// One for each of them, in the plan's order. `screen_px`: size of the depth buffer. Returns how many it wrote.
 /// Throws Error where there is no room for them.
-GNOMON_API std::uint32_t fillCascadeLights(const Frame& frame, const Plan& plan, glm::uvec2 screen_px,
+GNOMON_API std::uint32_t fillCascadeLights(const Plan& plan, glm::uvec2 screen_px,
                                            std::span<shared::GpuCascadeLight> out);
 /// Groups of the passes that look at pixels.
 [[nodiscard]] GNOMON_API glm::uvec2 groupsOver(glm::uvec2 screen_px);

@@ -68,8 +68,8 @@ struct CompactMask {
 /// `size_px`: of the mask. `lists`: scratch, which keeps what it has allocated, as `out` does. Linear in entries.
 /// Numbers that are none count for nothing. Throws Error for a rule that is wrong, more than kMostTileLights lights, or
 /// a frame with others than the plan.
-GNOMON_API void listCompactMask(const Frame& frame, const Plan& plan, const CompactMaskRule& rule, glm::uvec2 size_px,
-                                LightLists& lists, CompactMask& out);
+GNOMON_API void listCompactMask(const Plan& plan, const CompactMaskRule& rule, glm::uvec2 size_px, LightLists& lists,
+                                CompactMask& out);
 
 /// The draws of a compact mask: for each layer one of each of the plan's options that has lights with maps, all over
 /// the screen. In them MaskDraw::first_light is the layer and `channels` the options; of draws that share, each takes

@@ -35,7 +35,7 @@ struct ScreenBounds {
 struct LightLists {
     std::uint32_t side_px = 0; // of a tile
     glm::uvec2 tiles{0};       // along x and y; those on the right and at the bottom may be cut
-    /// Tile (x, y) has lights[first[i]] to lights[first[i + 1] - 1], i = y * tiles.x + x: indices into Frame::lights,
+    /// Tile (x, y) has lights[first[i]] to lights[first[i + 1] - 1], i = y * tiles.x + x: indices into `lights`,
     /// ascending.
     std::vector<std::uint32_t> first;
     std::vector<std::uint32_t> lights; // tile after tile
@@ -48,11 +48,9 @@ struct LightLists {
     }
 };
 
-/// Of a frame's lights, whether or not they cast. `scene_bounds_ws`: of all objects, for lights without a range
-/// (extentOf()). Keeps what `out` has allocated. No tiles of a picture, or of tiles, without size.
-GNOMON_API void listLights(const Frame& frame, const Aabb& scene_bounds_ws, std::uint32_t side_px, LightLists& out);
-/// The same for a picture of another size than Frame::size_px.
-GNOMON_API void listLights(const Frame& frame, const Aabb& scene_bounds_ws, glm::uvec2 size_px, std::uint32_t side_px,
-                           LightLists& out);
+/// Of all lights, whether or not they cast, in a picture of this size. `scene_bounds_ws`: of all objects, for lights
+/// without a range (extentOf()). Keeps what `out` has allocated. No tiles of a picture, or of tiles, without size.
+GNOMON_API void listLights(std::span<const Light> lights, const Camera& camera, const Aabb& scene_bounds_ws,
+                           glm::uvec2 size_px, std::uint32_t side_px, LightLists& out);
 
 } // namespace gnomon::pack

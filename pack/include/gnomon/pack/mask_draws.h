@@ -48,12 +48,11 @@ struct MaskDraw {
     bool operator==(const MaskDraw&) const = default;
 };
 
-/// The draws for a screen of this size, in order, each light's all over it. Keeps what `out` has allocated.
+/// The draws for a screen of this size, in order, each light's within its screenBounds(). A light without a range
+/// reaches as far as the frame's objects, and everything where it has none; so does a light that Plan::made_for does
+/// not have. What such a draw needs, its options, kinds of views and shares, is the same wherever lights are. Keeps
+/// what `out` has allocated.
 GNOMON_API void listMaskDraws(const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out);
-/// The same of this frame: each light's within its screenBounds(). A light without a range reaches as far as the
-/// frame's objects, and everything where it has none. What such a draw needs, its options, kinds of views and shares,
-/// is what a draw of the other list needs.
-GNOMON_API void listMaskDraws(const Frame& frame, const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out);
 /// Of an image of half the size the texels whose pixels these are, by gnomon/shared/mask_upsample.h: what is drawn to
 /// it of such a draw. Draws side by side have no texel in common. Empty where there is none.
 [[nodiscard]] GNOMON_API ScreenBounds halfTexels(const ScreenBounds& pixels, glm::uvec2 size_px);
@@ -62,8 +61,7 @@ GNOMON_API void listMaskDraws(const Frame& frame, const Plan& plan, glm::uvec2 s
 /// How many places fillMaskLights() needs at most for a plan like this one, however its suns stand.
 [[nodiscard]] GNOMON_API std::uint32_t maskLightCount(const Plan& plan);
 /// What the draws read: at MaskDraw::first_light + channel the light that has this channel, a coloured one four times.
-/// Throws Error where there is no room for that, or the frame has other lights than the plan.
-GNOMON_API void fillMaskLights(const Frame& frame, const Plan& plan, std::span<const MaskDraw> draws,
-                               std::span<shared::GpuLight> lights);
+/// Throws Error where there is no room for that, or Plan::made_for has other lights.
+GNOMON_API void fillMaskLights(const Plan& plan, std::span<const MaskDraw> draws, std::span<shared::GpuLight> lights);
 
 } // namespace gnomon::pack

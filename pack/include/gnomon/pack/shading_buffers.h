@@ -25,24 +25,23 @@ struct MapImage {
 
 /// For lights whose LightPlan::options is `options`. `screen_px`: the size of the picture. Throws Error where the plan
 /// has no such options, or a size is 0.
-GNOMON_API void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t options, glm::uvec2 screen_px,
-                              const MapImage& maps, const DrawPrecision& precision, shared::GpuConstants& out);
+GNOMON_API void fillConstants(const Plan& plan, std::uint32_t options, glm::uvec2 screen_px, const MapImage& maps,
+                              const DrawPrecision& precision, shared::GpuConstants& out);
 /// Light i of the frame goes to lights[i]; what is beyond the frame's lights gets no views. Lights without a map have
 /// none. One with SunSteps::alternate has the views of SunSteps::read alone, whose maps this frame draws. Throws
-/// Error where there is no room for all, or the frame has other lights than the plan.
-GNOMON_API void fillLights(const Frame& frame, const Plan& plan, std::span<shared::GpuLight> lights);
+/// Error where there is no room for all, or Plan::made_for has other lights.
+GNOMON_API void fillLights(const Plan& plan, std::span<shared::GpuLight> lights);
 /// View i of the plan goes to views[i]. `maps`: by options. Views with View::gpu_cascade are as their base map until
 /// they are completed on the GPU: slice.w, which is 0 for others, is then one past the view's number
 /// (shaders/passes/cascade_constants.comp). Up to kFewViews, what is beyond the plan's views serves no depth.
 /// Throws Error where there is no room for all, or there are fewer maps than options.
-GNOMON_API void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> maps,
-                          std::span<shared::GpuView> views);
+GNOMON_API void fillViews(const Plan& plan, std::span<const MapImage> maps, std::span<shared::GpuView> views);
 
 /// How many vectors fillObjects() writes: 0 where no light has ids (filters id and depth-id).
 [[nodiscard]] GNOMON_API std::size_t objectVectorCount(const Plan& plan);
 /// What filters id and depth-id know of the objects that receive: a storage buffer. First two vectors for each object,
 /// its box's centre, relative to the eye, and half its size; then for each light that has ids one number for each
 /// object, four to a vector (GpuLight::options). Throws Error where there is no room for all.
-GNOMON_API void fillObjects(const Frame& frame, const Plan& plan, std::span<glm::vec4> out);
+GNOMON_API void fillObjects(const Plan& plan, std::span<glm::vec4> out);
 
 } // namespace gnomon::pack

@@ -34,6 +34,6 @@ struct VolumeDraw {
 };
 
 /// Of the lights that have volumes, in their order. Keeps what `out` has allocated.
-GNOMON_API void listVolumeDraws(const Frame& frame, const Plan& plan, glm::uvec2 size_px, std::vector<VolumeDraw>& out);
+GNOMON_API void listVolumeDraws(const Plan& plan, glm::uvec2 size_px, std::vector<VolumeDraw>& out);
 
 } // namespace gnomon::pack

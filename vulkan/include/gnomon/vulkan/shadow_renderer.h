@@ -323,13 +323,13 @@ public:
     /// To be called before recordMaps() for a plan that has views with View::gpu_cascade (Error there); does nothing
     /// for others. Fits these views to the camera's depth buffer: of `inputs` depth and, if given, object ids, whose
     /// writes the host has made visible to COMPUTE_SHADER reads too. Nothing waits for the CPU.
-    void recordBounds(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
-                      const MaskInputs& inputs, Profiler* profiler = nullptr);
+    void recordBounds(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
+                      Profiler* profiler = nullptr);
     /// Records the maps that do not hold what their views want: what View::redraw and View::dirty say, and all of those
     /// whose texels are not what View::presumes says, because a frame was planned and not recorded, say. `slot` in
     /// [0, frames_in_flight): the caller knows that the GPU has finished the last frame recorded with it.
-    void recordMaps(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
-                    const DrawCasters& draw, Profiler* profiler = nullptr);
+    void recordMaps(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const DrawCasters& draw,
+                    Profiler* profiler = nullptr);
     /// Records the mask: every layer, every channel. 1 = fully lit; background 1; lights without a map 1; a surface
     /// that faces away from a light 0. A pixel is at most the share of the light's disc that is over its surface's
     /// horizon; a light without a size, and any light with filter volumes, has a step there at 0.11 degrees. Pixels at
@@ -338,8 +338,8 @@ public:
     /// mask() is readable by FRAGMENT_SHADER, COMPUTE_SHADER and TRANSFER. Nothing is recorded where mask() holds all
     /// this already (MaskInputs::content); of lights whose frames converge, of suns with step-alternate and of views
     /// with View::gpu_cascade that is not known.
-    void recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
-                    const MaskInputs& inputs, Profiler* profiler = nullptr);
+    void recordMask(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
+                    Profiler* profiler = nullptr);
 
     /// Which lights a tile of the mask has and where (shaders/include/gnomon/compact_mask.glsl), of the last
     /// recordMask() with this slot: its buffer may be another one each time, so write descriptors after that. Lights
