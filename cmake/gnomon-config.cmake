@@ -1,6 +1,9 @@
 # find_package(gnomon [0.1] [COMPONENTS core|pack|vulkan|shaders ...]): targets gnomon::COMPONENT of those and of what they
 # need, and with shaders gnomon_shaders() and gnomon_shader_variants() (shaders.cmake). Without COMPONENTS: all of them.
 set(_gnomon_all core pack vulkan shaders)
+if(NOT EXISTS ${CMAKE_CURRENT_LIST_DIR}/gnomon-vulkan.cmake) # GNOMON_VULKAN=OFF
+    list(REMOVE_ITEM _gnomon_all vulkan)
+endif()
 set(_gnomon_wanted ${gnomon_FIND_COMPONENTS})
 if(NOT _gnomon_wanted)
     set(_gnomon_wanted ${_gnomon_all})

@@ -26,10 +26,14 @@ endfunction()
 set(gnomon_libs "-L\${libdir} -lgnomon-")
 gnomon_pkg_config(core "Plans of shadow maps" ${gnomon_libs}core glm "")
 gnomon_pkg_config(pack "What shaders read of Gnomon's plans" ${gnomon_libs}pack gnomon-core "")
-gnomon_pkg_config(vulkan "Soft shadows recorded into Vulkan command buffers" ${gnomon_libs}vulkan gnomon-pack vulkan)
+set(gnomon_components core pack)
+if(GNOMON_VULKAN)
+    list(APPEND gnomon_components vulkan)
+    gnomon_pkg_config(vulkan "Soft shadows recorded into Vulkan command buffers" ${gnomon_libs}vulkan gnomon-pack vulkan)
+endif()
 gnomon_pkg_config(shaders "Gnomon's GLSL, in includedir" "" "" "")
 
-foreach(component core pack vulkan)
+foreach(component IN LISTS gnomon_components)
     install(TARGETS gnomon_${component} EXPORT gnomon-${component}
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
@@ -39,7 +43,7 @@ endforeach()
 install(TARGETS gnomon_glsl EXPORT gnomon-shaders INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY shaders/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 
-foreach(component core pack vulkan shaders)
+foreach(component IN LISTS gnomon_components ITEMS shaders)
     install(EXPORT gnomon-${component} NAMESPACE gnomon:: DESTINATION ${gnomon_cmake_dir} COMPONENT development)
 endforeach()
 # Before 1.0 a minor version may change the interface.
@@ -54,7 +58,7 @@ if(NOT GNOMON_PACKAGE)
     install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 endif()
 
-set(gnomon_installed gnomon_core gnomon_pack gnomon_vulkan)
+list(TRANSFORM gnomon_components PREPEND gnomon_ OUTPUT_VARIABLE gnomon_installed)
 if(GNOMON_PROGRAM)
     list(APPEND gnomon_installed gnomon)
     install(TARGETS gnomon RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
@@ -82,7 +86,8 @@ add_custom_target(gnomon_installed DEPENDS ${gnomon_installed})
 
 if(BUILD_SHARED_LIBS)
     # Found from where they lie, wherever that is; CMAKE_SKIP_INSTALL_RPATH is for prefixes that the loader knows.
-    set_target_properties(gnomon_core gnomon_pack gnomon_vulkan PROPERTIES INSTALL_RPATH $ORIGIN)
+    list(TRANSFORM gnomon_components PREPEND gnomon_ OUTPUT_VARIABLE libraries)
+    set_target_properties(${libraries} PROPERTIES INSTALL_RPATH $ORIGIN)
     if(GNOMON_PROGRAM)
         file(RELATIVE_PATH up ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
         set_target_properties(gnomon PROPERTIES INSTALL_RPATH $ORIGIN/${up})

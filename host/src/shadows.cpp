@@ -76,12 +76,13 @@ Shadows::Shadows(SceneData& scene, const RenderOptions& options)
     }
 }
 
-const Plan& Shadows::planAgain()
+const Plan& Shadows::planAgain(const Camera& camera)
 {
     if (plan != &kept_) {
         kept_ = *plan;
         plan = &kept_;
     }
+    kept_.made_for.camera = camera;
     for (View& view : kept_.views) {
         view.redraw = false;
         view.redraw_kept = false;

@@ -22,7 +22,7 @@ struct Shadows {
     Shadows(SceneData& scene, const RenderOptions& options);
 
     /// The last plan once more, nothing of which is to be drawn.
-    [[nodiscard]] const Plan& planAgain();
+    [[nodiscard]] const Plan& planAgain(const Camera& camera);
     /// The last plan as the GPU has fitted it. The GPU has finished it, with this slot.
     [[nodiscard]] const Plan& fittedPlan(std::uint32_t slot);
 

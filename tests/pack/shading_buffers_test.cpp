@@ -129,7 +129,6 @@ TEST(ShadingBuffers, WhatIsNotThereOrHasNoRoomIsAnError)
 {
     PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}});
     by_hand.add(0, 2);
-    const PlannedFrame& frame = by_hand.plan.made_for;
     const Plan& plan = by_hand.plan;
     const pack::MapImage image{{256, 256}, 1};
     shared::GpuConstants constants{};

@@ -167,6 +167,16 @@ def program_packages() -> set[str]:
 
 
 class Configured(Case):
+    def test_planner_and_pack_need_no_vulkan(self):
+        build = folder("without_vulkan")
+        self.passes(configure(OPTIONS.source, build, "-DGNOMON_PROGRAM=OFF", "-DGNOMON_VULKAN=OFF",
+                              "-DCMAKE_DISABLE_FIND_PACKAGE_Vulkan=ON", "-DGNOMON_GLSLC=GNOMON_GLSLC-NOTFOUND"))
+        targets = self.passes(run("ninja", "-C", build, "-t", "targets", "all"))
+        self.assertIn("gnomon_pack", targets)
+        self.assertNotIn("spirv", targets)
+        self.fails(configure(OPTIONS.source, folder("program_without_vulkan"), "-DGNOMON_VULKAN=OFF"),
+                   "the program draws by Vulkan")
+
     def test_library_alone_needs_no_package_of_the_program(self):
         packages = program_packages()
         self.assertLessEqual({"embree", "OpenEXR", "PNG", "nlohmann_json", "CLI11", "PkgConfig"}, packages)

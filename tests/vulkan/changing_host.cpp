@@ -155,7 +155,7 @@ Made ChangingHost::frame(Planner& planner, const FrameSetup& setup)
     fins.beginFrame(slot, fin_geometry_, transforms_);
     prepared_now = driver.counts().pipelines - pipelines;
     at = At::record;
-    const Made made = record(slot, frame, plan, inputsOf(slot, setup));
+    const Made made = record(slot, plan, inputsOf(slot, setup));
     at = At::nothing;
     return made;
 }

@@ -42,9 +42,9 @@ public:
         : frame_(lights.scene.frameOf(lights.lights)), plan_(&lights.planner.plan(frame_))
     {
         Drawing each(gpu(), lights.scene.mesh());
-        each_ = lights.scene.draw(each, frame_, *plan_);
+        each_ = lights.scene.draw(each, *plan_);
         Drawing compact(gpu(), lights.scene.mesh(), rule);
-        compact_ = lights.scene.draw(compact, frame_, *plan_);
+        compact_ = lights.scene.draw(compact, *plan_);
         EXPECT_EQ(compact.renderer.mask().layers, rule.channels / 4);
         EXPECT_GT(compact.renderer.maskTiles(0).bytes, 0U);
         EXPECT_EQ(compact.renderer.maskTiles(99).bytes, 0U);

@@ -96,11 +96,11 @@ TEST_P(Converging, isTheMeanOfItsFrames)
     for (int frame = 0; frame < 12; ++frame) {
         const Frame now = scene.frameOf(sun);
         const Plan& plan = alone.planner.plan(now);
-        const auto mean = scene.draw(alone.drawing, now, plan);
+        const auto mean = scene.draw(alone.drawing, plan);
         Plan apart = plan; // of a renderer that knows of no frame before
         apart.cut = true;
         apart.number = 100U + 2U * static_cast<std::uint64_t>(frame);
-        const auto one = scene.draw(other, now, apart);
+        const auto one = scene.draw(other, apart);
         sum.resize(one.size());
         double worst = 0.0;
         for (std::size_t i = 0; i < one.size(); ++i) {
@@ -189,13 +189,13 @@ TEST_P(Converging, beginsAnewWhereALightIsElsewhereInTheMask)
     std::vector<std::byte> mask;
     for (int frame = 0; frame < 8; ++frame) {
         const Frame now = scene.frameOf(three);
-        mask = scene.draw(drawing, now, planner.plan(now));
+        mask = scene.draw(drawing, planner.plan(now));
     }
     three[0].options = 0;
     const Frame now = scene.frameOf(three);
     const Plan& plan = planner.plan(now);
     ASSERT_EQ(plan.lights[2].mask_layer, 0U);
-    mask = scene.draw(drawing, now, plan);
+    mask = scene.draw(drawing, plan);
     EXPECT_EQ(countBetween(channelOf(mask, plan.lights[2])), 0U) << "it was in layer 2";
     EXPECT_GT(countBetween(channelOf(mask, plan.lights[1])), 20U) << "this one stayed in layer 1";
 }

@@ -60,10 +60,10 @@ void expectWhatAFreshOneDraws(Gpu& device)
             frame = scene.frameOf(lights);
             frame.index = 3 * i + k;
             plan = &planner->plan(frame);
-            mask = scene.draw(lasting, frame, *plan, k % 2);
+            mask = scene.draw(lasting, *plan, k % 2);
         }
         Drawing fresh(device, scene.mesh());
-        EXPECT_EQ(mask, scene.draw(fresh, frame, *plan)) << "step " << i << ", " << options;
+        EXPECT_EQ(mask, scene.draw(fresh, *plan)) << "step " << i << ", " << options;
         EXPECT_GT(std::ranges::count(mask, std::byte{0}), 20) << "no shadow in step " << i;
         EXPECT_GT(std::ranges::count(mask, std::byte{255}), 20) << "no light in step " << i;
     }
@@ -107,7 +107,7 @@ TEST(SeveralOptions, giveEachLightWhatItsOwnGiveAlone)
     Planner planner(options);
     const Plan& plan = planner.plan(together);
     Drawing drawing(gpu(), scene.mesh());
-    const std::vector<std::byte> mask = scene.draw(drawing, together, plan);
+    const std::vector<std::byte> mask = scene.draw(drawing, plan);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         Light light = lights[i];
         light.options = 0;
@@ -115,7 +115,7 @@ TEST(SeveralOptions, giveEachLightWhatItsOwnGiveAlone)
         Planner own(options[kOptionsOf[i]]);
         Drawing one(gpu(), scene.mesh());
         const auto channel = channelOf(mask, std::size_t{kScreen.width} * kScreen.height, plan.lights[i]);
-        EXPECT_EQ(channel, scene.draw(one, alone, own.plan(alone))) << "light " << i;
+        EXPECT_EQ(channel, scene.draw(one, own.plan(alone))) << "light " << i;
         EXPECT_GT(std::ranges::count_if(channel, [](std::byte v) { return v != std::byte{255}; }), 20) << i;
     }
     expectSilence(gpu());

@@ -47,9 +47,9 @@ struct Kept {
         const Plan& plan = planner.plan(now);
         const std::uint32_t slot = count++ % slots;
         scene.nameContent(content);
-        const std::vector<std::byte> mask = scene.draw(keeps, now, plan, slot);
+        const std::vector<std::byte> mask = scene.draw(keeps, plan, slot);
         scene.nameContent(0);
-        const std::vector<std::byte> wanted = scene.draw(draws, now, plan, slot);
+        const std::vector<std::byte> wanted = scene.draw(draws, plan, slot);
         EXPECT_TRUE(mask == wanted) << "frame " << count;
         EXPECT_LT(*std::ranges::min_element(mask), std::byte{128}) << "nothing is in shadow";
         EXPECT_FALSE(draws.renderer.maskKept(slot));
@@ -277,7 +277,7 @@ TEST(KeptMask, HasNoPass)
     const auto passes = [&] {
         const Frame frame = kept.scene.frameOf(kept.lights);
         kept.scene.nameContent(1);
-        (void)kept.scene.draw(kept.keeps, frame, kept.planner.plan(frame), 0, &profiler);
+        (void)kept.scene.draw(kept.keeps, kept.planner.plan(frame), 0, &profiler);
         std::vector<std::string> names;
         for (const vulkan::PassRecord& pass : profiler.results(0)) {
             names.emplace_back(pass.name);

@@ -124,10 +124,6 @@ TEST(Misuse, OfTheMasksInputsIsAnError)
         inputs.extent = extent;
         expectRefused(host, extent.width * extent.height == 0 ? "extent is 0" : "no mask of this size", with(inputs));
     }
-    const std::vector<Light> more(3, host.lights[0]);
-    host.frame.lights = more;
-    expectRefused(host, "other lights than the plan", with(host.inputs));
-    host.frame.lights = host.lights;
     host.record();
 }
 
@@ -190,10 +186,8 @@ TEST(Misuse, OfAPlanThatPointsOutOfItselfIsAnError)
         const char* const kHint = "hand in a plan as its planner made it";
         expectRefused(host, kHint, [&] { (void)host.renderer.prepare(wrong, kPicture); });
         host.prepare();
-        expectRefused(host, kHint,
-                      [&] { host.renderer.recordMaps(host.driver.commands(), 0, host.frame, wrong, host.draw); });
-        expectRefused(host, kHint,
-                      [&] { host.renderer.recordMask(host.driver.commands(), 0, host.frame, wrong, host.inputs); });
+        expectRefused(host, kHint, [&] { host.renderer.recordMaps(host.driver.commands(), 0, wrong, host.draw); });
+        expectRefused(host, kHint, [&] { host.renderer.recordMask(host.driver.commands(), 0, wrong, host.inputs); });
         expectRefused(host, kHint, [&] { host.drawer.beginFrame(0, wrong, host.geometry, host.transforms); });
     }
     host.record();
@@ -340,7 +334,7 @@ TEST(Misuse, OfAnotherPlanThanWasPreparedIsAnError)
         Plan grown = host.plan;
         grow(grown);
         expectRefused(host, "call prepare() with it first",
-                      [&] { host.renderer.recordMaps(host.driver.commands(), 0, host.frame, grown, host.draw); });
+                      [&] { host.renderer.recordMaps(host.driver.commands(), 0, grown, host.draw); });
         (void)host.renderer.prepare(grown, kPicture);
         host.prepare();
     }

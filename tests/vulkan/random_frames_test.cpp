@@ -169,8 +169,8 @@ TEST_P(RandomFrames, holdWhatADrawingFromScratchGives)
             ++skipped; // planned, and never recorded
             continue;
         }
-        record(kept_, frame, plan);
-        record(whole_, frame, fromScratch(plan));
+        record(kept_, plan);
+        record(whole_, fromScratch(plan));
         held += kept_.renderer.reuse(0).held;
         restored += kept_.renderer.reuse(0).restored;
         ASSERT_EQ(differences(plan), 0U) << "frame " << i;

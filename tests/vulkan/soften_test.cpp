@@ -230,7 +230,7 @@ TEST(Soften, FollowsEveryOtherPassOfTheMask)
         Planner one(optionsFrom(line));
         for (int i = 0; i < 2; ++i) {
             const Frame frame = scene.frameOf(lights);
-            (void)scene.draw(other, frame, one.plan(frame));
+            (void)scene.draw(other, one.plan(frame));
         }
         expectSilence(gpu());
     }

@@ -57,9 +57,9 @@ TEST_P(TwoWays, SayTheSame)
         Planner planner(optionsFrom(GetParam().options));
         const Plan& plan = planner.plan(frame);
         Drawing software(gpu(), scene.mesh());
-        const std::vector<std::byte> by_software = scene.draw(software, frame, plan);
+        const std::vector<std::byte> by_software = scene.draw(software, plan);
         Drawing hardware(asGpu(gpu().view()), scene.mesh());
-        const std::vector<std::byte> by_gpu = scene.draw(hardware, frame, plan);
+        const std::vector<std::byte> by_gpu = scene.draw(hardware, plan);
         ASSERT_EQ(by_software.size(), by_gpu.size());
         std::size_t others = 0;
         for (std::size_t i = 0; i < by_gpu.size(); ++i) {
