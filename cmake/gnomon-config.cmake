@@ -17,6 +17,12 @@ foreach(_gnomon_one IN LISTS _gnomon_wanted)
     endif()
 endforeach()
 
+list(FILTER _gnomon_wanted INCLUDE REGEX "^(core|pack|vulkan|shaders)$")
+if(NOT "vulkan" IN_LIST _gnomon_all)
+    list(REMOVE_ITEM _gnomon_wanted vulkan)
+    set(gnomon_vulkan_FOUND FALSE)
+endif()
+
 include(CMakeFindDependencyMacro)
 if("vulkan" IN_LIST _gnomon_wanted)
     list(APPEND _gnomon_wanted pack)

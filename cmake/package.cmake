@@ -33,7 +33,10 @@ set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "real-time soft shadows - development f
 
 C++ and GLSL headers, files for CMake and pkg-config, and examples.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "${CPACK_DEBIAN_LIBRARY_PACKAGE_NAME} ${same_version}, libglm-dev, libvulkan-dev (>= 1.3)")
+    "${CPACK_DEBIAN_LIBRARY_PACKAGE_NAME} ${same_version}, libglm-dev")
+if(GNOMON_VULKAN)
+    string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libvulkan-dev (>= 1.3)")
+endif()
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "glslc, spirv-tools")
 
 if(GNOMON_PROGRAM)

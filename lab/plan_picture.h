@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light's maps as SVG text, drawn from what a frame and its plan say and nothing else.
+// A light's maps as SVG text, drawn from what a plan and its objects say and nothing else.
 #pragma once
 
 #include <gnomon/frame.h>

@@ -72,7 +72,7 @@ std::string nameOfView(const View& view, std::uint32_t index)
     const ViewSlice& slice = view.slice;
     std::string name = fmt::format("map {}: ", index);
     if (slice.bounded()) {
-        name += slice.isRatio() ? "eye / lamp depth " : "";
+        name += slice.across ? "across the light " : slice.isRatio() ? "eye / lamp depth " : "";
         name += std::isfinite(slice.begin_m) ? fmt::format("from {:.3g} ", slice.begin_m) : "";
         name += std::isfinite(slice.end_m) ? fmt::format("to {:.3g} ", slice.end_m) : "";
         name.insert(name.size() - 1, slice.isRatio() ? "," : " m,");

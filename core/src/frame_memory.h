@@ -17,7 +17,6 @@ public:
     /// Does the frame's camera stand where it stood in the last frame that was noted? Not where there was none.
     [[nodiscard]] bool sees(const Frame& frame) const;
     void note(const Frame& frame);
-    void forget() { known_ = false; }
 
 private:
     bool known_ = false;

@@ -254,7 +254,7 @@ Warp FrustumPlanner::warpOf(const FrustumInput& input, const Lie& lie) const
 {
     const Recipe& recipe = input.recipe;
     if (input.slice.up_ws != glm::dvec3(0.0)) {
-        return {}; // a piece of a warp is affine
+        return {}; // a segment of a warp is affine
     }
     if (recipe.searchesWarp()) {
         const FitInput fit = fitInputOf(input, lie);

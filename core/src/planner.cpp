@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame's way to its plan, in five steps with plain data between: what is seen (Sights), how lights are divided
-// (Frustums), where their maps lie (Places), how each is projected (Views), and what is drawn (Schedule).
+// A frame's way to its plan, in five steps: what is seen (Sights), how lights are divided (Frustums), where their maps
+// lie (Places), how each is projected (Views), and what is drawn (Schedule). Where lights take turns, Schedule is asked
+// before furnishing and while fitting, too.
 #include "frame_memory.h"
 #include "plan/frustums.h"
 #include "plan/places.h"
@@ -153,6 +154,7 @@ const Plan& Planner::plan(const Frame& given)
     s.spoilt = true;
     const bool again = s.told.holds(frame) && !frame.cut;
     s.makePlan(frame, fault);
+    s.plan.made_for.objects = given.objects != nullptr ? s.plan.made_for.objects : 0;
     s.told.note(frame);
     s.settled = again && s.settles();
     s.spoilt = false;

@@ -45,7 +45,7 @@ struct Recipe {
     [[nodiscard]] bool levelsDepth() const;
     /// A map needs the receiver itself: its depth, or its id.
     [[nodiscard]] bool drawsReceivers() const { return filter->filterable || filter->ids; }
-    /// Filter volumes has none: its lights want none, and have casters instead (planner_volumes.cpp).
+    /// Filter volumes has none: its lights want none, and have casters instead (plan/views_of_volumes.cpp).
     [[nodiscard]] bool hasMaps() const { return resolved.hasMaps(); }
     /// What a frame draws is bounded.
     [[nodiscard]] bool takesTurns() const { return boundsDrawing(options); }

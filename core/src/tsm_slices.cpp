@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fit tsm in affine pieces: a slice of the light for each.
+// Fit tsm in affine segments: a slice of the light for each.
 #define GNOMON_REAL double
 #include "fit/tsm_segments.h"
 #include "frustum_planner.h"
@@ -35,6 +35,7 @@ void FrustumPlanner::divideTsm(const FrustumInput& input, std::uint32_t count, d
     };
     whole.up_ws = space.right_ws * found.along.x + space.up_ws * found.along.y;
     whole.depth.axis = row(whole.up_ws);
+    whole.depth.across = true;
     if (space.perspective) {
         whole.depth.over = row(space.forward_ws);
         whole.sector.w = whole.depth.over;

@@ -276,7 +276,7 @@ void FrameRenderer::Impl::makePlan(Maps maps, bool masked_instead)
         return;
     }
     if (maps == Maps::kept) {
-        plan = &shadows->planAgain(frame.camera);
+        plan = &shadows->planAgain(frame);
     } else {
         if (!options.reuse_maps) {
             shadows->planner.reset();

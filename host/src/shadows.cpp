@@ -76,13 +76,14 @@ Shadows::Shadows(SceneData& scene, const RenderOptions& options)
     }
 }
 
-const Plan& Shadows::planAgain(const Camera& camera)
+const Plan& Shadows::planAgain(const Frame& frame)
 {
     if (plan != &kept_) {
         kept_ = *plan;
         plan = &kept_;
     }
-    kept_.made_for.camera = camera;
+    kept_.made_for.camera = frame.camera;
+    kept_.made_for.size_px = frame.size_px;
     for (View& view : kept_.views) {
         view.redraw = false;
         view.redraw_kept = false;

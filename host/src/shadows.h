@@ -21,8 +21,8 @@ struct Shadows {
     /// Throws Error.
     Shadows(SceneData& scene, const RenderOptions& options);
 
-    /// The last plan once more, nothing of which is to be drawn.
-    [[nodiscard]] const Plan& planAgain(const Camera& camera);
+    /// The last plan once more, for this frame's eye; nothing of it is to be drawn.
+    [[nodiscard]] const Plan& planAgain(const Frame& frame);
     /// The last plan as the GPU has fitted it. The GPU has finished it, with this slot.
     [[nodiscard]] const Plan& fittedPlan(std::uint32_t slot);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes of a frame and its plan in the plane across a light: for pictures of plans.
+// Shapes of a plan in the plane across a light: for pictures of plans.
 #pragma once
 
 #include <gnomon/frame.h>

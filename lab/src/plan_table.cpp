@@ -77,8 +77,12 @@ std::string sliceOf(const View& view)
     if (!view.slice.bounded()) {
         return "all";
     }
+    const std::string unit =
+        std::string(view.slice.isRatio() ? " x lamp's" : " m") + (view.slice.across ? " across" : "");
+    if (view.slice.across && !std::isfinite(view.slice.begin_m)) {
+        return "to " + numberOf(view.slice.end_m) + unit;
+    }
     const std::string begin = std::isfinite(view.slice.begin_m) ? numberOf(view.slice.begin_m) : "0";
-    const std::string unit = view.slice.isRatio() ? " x lamp's" : " m";
     return std::isfinite(view.slice.end_m) ? begin + " to " + numberOf(view.slice.end_m) + unit
                                            : "from " + begin + unit;
 }

@@ -3,6 +3,7 @@
 
 #include "reach_cells.h"
 
+#include <gnomon/error.h>
 #include <gnomon/plan_views.h>
 
 #include <glm/geometric.hpp>
@@ -42,8 +43,11 @@ void listVolumeDraws(const Plan& plan, glm::uvec2 size_px, std::vector<VolumeDra
 {
     out.clear();
     const PlannedFrame& from = plan.made_for;
-    const std::size_t count = std::min(plan.lights.size(), from.lights.size());
-    for (std::uint32_t i = 0; i < count; ++i) {
+    if (from.lights.size() != plan.lights.size()) {
+        throw Error("list the lights whose shadow volumes are counted",
+                    "the plan does not say what they are (Plan::made_for)");
+    }
+    for (std::uint32_t i = 0; i < plan.lights.size(); ++i) {
         const LightPlan& planned = plan.lights[i];
         const Light& light = from.lights[i];
         VolumeDraw draw;

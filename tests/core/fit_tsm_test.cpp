@@ -68,7 +68,7 @@ TEST(FitTsm, HasNoWarpWhereAllIsEquallyFar)
     }
 }
 
-/// Texels a pixel at the near end of a piece, up to a constant: what the pieces are to have alike.
+/// Texels a pixel at the near end of a segment, up to a constant: alike in all of them.
 double errorOf(double near, double slope, double widening, double a, double b)
 {
     return std::sqrt((b - a) * (1.0 + widening * b)) / (near + slope * a);
@@ -87,7 +87,7 @@ TEST(FitTsm, SegmentsErrAlikeAndLessThanFewer)
         const double first = errorOf(near, 1.0, 1.0 / warp.n, 0.0, ends[1] - ends[0]);
         for (std::uint32_t i = 0; i < count; ++i) {
             const double error = errorOf(near, 1.0, 1.0 / warp.n, ends[i] - ends[0], ends[i + 1] - ends[0]);
-            EXPECT_NEAR(error, first, 2e-3 * first) << count << " pieces, " << i;
+            EXPECT_NEAR(error, first, 2e-3 * first) << count << " segments, " << i;
         }
         EXPECT_LT(first, 0.9 * last) << count;
         last = first;

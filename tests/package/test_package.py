@@ -168,12 +168,18 @@ def program_packages() -> set[str]:
 
 class Configured(Case):
     def test_planner_and_pack_need_no_vulkan(self):
-        build = folder("without_vulkan")
-        self.passes(configure(OPTIONS.source, build, "-DGNOMON_PROGRAM=OFF", "-DGNOMON_VULKAN=OFF",
-                              "-DCMAKE_DISABLE_FIND_PACKAGE_Vulkan=ON", "-DGNOMON_GLSLC=GNOMON_GLSLC-NOTFOUND"))
-        targets = self.passes(run("ninja", "-C", build, "-t", "targets", "all"))
-        self.assertIn("gnomon_pack", targets)
-        self.assertNotIn("spirv", targets)
+        build, prefix = folder("without_vulkan"), folder("without_vulkan_installed")
+        without = "-DCMAKE_DISABLE_FIND_PACKAGE_Vulkan=ON"
+        self.passes(configure(OPTIONS.source, build, "-DGNOMON_PROGRAM=OFF", "-DGNOMON_VULKAN=OFF", "-DGNOMON_UNITY=ON", without))
+        self.assertNotIn("spirv", self.passes(run("ninja", "-C", build, "-t", "targets", "all")))
+        self.passes(run("cmake", "--build", build))
+        self.passes(run("cmake", "--install", build, "--prefix", prefix))
+        source = folder("without_vulkan_host")
+        for wish, works in (("COMPONENTS pack", True), ("OPTIONAL_COMPONENTS vulkan", True), ("COMPONENTS vulkan", False)):
+            text = f"cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\nfind_package(gnomon REQUIRED {wish})\n"
+            (source / "CMakeLists.txt").write_text(text, encoding="utf-8")
+            done = configure(source, folder("without_vulkan_found"), f"-DCMAKE_PREFIX_PATH={prefix}", without)
+            self.assertEqual(done.returncode == 0, works, f"{wish}: {done.stderr}")
         self.fails(configure(OPTIONS.source, folder("program_without_vulkan"), "-DGNOMON_VULKAN=OFF"),
                    "the program draws by Vulkan")
 

@@ -62,9 +62,9 @@ TEST(AlternatingSun, forgetsWhereItIsInterrupted)
 TEST(AlternatingSun, doesNotDrawBehindWhatMovesAway)
 {
     Suns suns(Setting{});
-    const glm::dvec3 moved_eye = suns.bench.frame.camera.eye_ws + glm::dvec3(-0.9, 0.2, 0.6);
+    const glm::dvec3 moved_eye = suns.bench.camera.eye_ws + glm::dvec3(-0.9, 0.2, 0.6);
     const Picture before = suns.bench.picture;
-    const Camera camera_before = suns.bench.frame.camera;
+    const Camera camera_before = suns.bench.camera;
     (void)suns.maskOf({turnOf(SunPosition::earlier, 0.5)});
     suns.bench.look(moved_eye, {0.0, 0.5, 0.0});
     const SunSteps steps = turnOf(SunPosition::later, 0.5);

@@ -71,8 +71,6 @@ struct FittedHost {
         options.cascades.count = kCascades;
         options.border_texels = 0.0;
         plan.options = planOptions(options);
-        frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
-        frame.lights = lights;
         inputs.extent = kScreen;
         inputs.depth = driver.makeView();
     }
@@ -95,7 +93,6 @@ struct FittedHost {
     Scene scene = makeScene();
     std::vector<Light> lights;
     Plan plan;
-    Frame frame;
     vulkan::MaskInputs inputs;
     ShadowRenderer renderer;
     VkBuffer placement = VK_NULL_HANDLE;
@@ -237,12 +234,11 @@ TEST(CascadeFitter, GrowsWithThePlanAndLeavesNothingBehind)
         Plan whole = host.plan;
         host.plan.views.resize(kCascades);
         host.plan.lights.resize(1);
-        host.frame.lights = host.frame.lights.first(1);
+        host.plan.made_for.lights.resize(1);
         (void)host.renderer.prepare(host.plan, kScreen);
         host.record(0);
         const auto updates = driver.counts().descriptor_updates;
         host.plan = whole;
-        host.frame.lights = host.lights;
         EXPECT_TRUE(host.renderer.prepare(host.plan, kScreen)) << "the mask has another format";
         host.record(0);
         EXPECT_GE(driver.counts().descriptor_updates, updates + 2);

@@ -230,7 +230,6 @@ public:
         plan = makeCascades(scene, lights, 4);
         options.format = format;
         plan.options = planOptions(options);
-        frame.lights = lights;
         std::vector<vulkan::DrawObject> objects{{0, 1}};
         objects.resize(1 + scene.boxes.size(), {1, 1});
         drawer.setScene(std::vector<vulkan::DrawPart>{{{0, 6, 0}, 0}, {{6, 36, 4}, 0}}, objects,
@@ -268,7 +267,6 @@ public:
     Scene scene = makeScene();
     std::vector<Light> lights = lightsOf(false);
     Plan plan;
-    Frame frame;
     vulkan::CasterGeometry geometry;
     std::vector<vulkan::Rows3x4> transforms;
     vulkan::ShadowRenderer renderer;

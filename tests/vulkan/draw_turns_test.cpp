@@ -37,7 +37,8 @@ struct Turns {
     /// Draws a frame; returns its plan.
     const Plan& draw()
     {
-        Frame frame = bench.frame;
+        Frame frame;
+        frame.camera = bench.camera;
         frame.lights = lights;
         frame.objects = &objects;
         frame.size_px = {kScreen.width, kScreen.height};

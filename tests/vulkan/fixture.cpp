@@ -86,15 +86,15 @@ Bench::Bench(VkExtent2D screen, const ShadowOptions& options_in, bool reversed_z
     : options(options_in), renderer(viewWith(memory), {.frames_in_flight = 1}),
       drawer(gpu().view(), drawerOptions(cull, clockwise)), screen_(screen)
 {
-    frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(screen.width) / screen.height, reversed_z);
+    camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(screen.width) / screen.height, reversed_z);
 }
 
 void Bench::setLights(std::vector<Light> new_lights, const std::vector<Tile>& tiles, MapPages atlas)
 {
     lights = std::move(new_lights);
-    frame.lights = lights;
     plan = makePlan(scene, lights, tiles, atlas, options);
-    picture = tracePicture(scene, frame.camera, screen_);
+    plan.made_for.camera = camera;
+    picture = tracePicture(scene, camera, screen_);
     inputs = uploadPicture(gpu(), picture);
     mesh = uploadMesh(gpu(), scene);
 }
@@ -132,14 +132,16 @@ void Bench::prepare()
 
 void Bench::look(const glm::dvec3& eye, const glm::dvec3& target)
 {
-    frame.camera = makeCamera(eye, target, double(screen_.width) / screen_.height, frame.camera.reversed_z);
-    picture = tracePicture(scene, frame.camera, screen_);
+    camera = makeCamera(eye, target, double(screen_.width) / screen_.height, camera.reversed_z);
+    picture = tracePicture(scene, camera, screen_);
     inputs = uploadPicture(gpu(), picture);
 }
 
 void Bench::record(int frames, vulkan::Profiler* profiler)
 {
     const auto transforms = scene.transforms();
+    plan.made_for.camera = camera;
+    plan.made_for.lights = lights;
     for (int i = 0; i < frames; ++i) {
         gpu().run([&](VkCommandBuffer commands) {
             drawer.beginFrame(0, plan, mesh.geometry, transforms);

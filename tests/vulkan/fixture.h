@@ -44,7 +44,7 @@ public:
     SceneMesh mesh;
     std::vector<Light> lights;
     Plan plan;
-    Frame frame;
+    Camera camera;
     Picture picture;
     vulkan::MaskInputs inputs;
     vulkan::ShadowRenderer renderer;

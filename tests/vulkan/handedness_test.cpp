@@ -63,10 +63,10 @@ TEST(Handedness, ofOpenGlsDepthIsOneFlag)
             bench.inputs.normal = light == 0 ? bench.inputs.normal : VK_NULL_HANDLE; // then they come from depth
             const auto plain = maskOf(bench, light);
             EXPECT_GT(countShadowed(plain), plain.size() / 50);
-            giveOpenGlDepth(bench.frame.camera);
+            giveOpenGlDepth(bench.camera);
             const auto unsaid = maskOf(bench, light);
             EXPECT_GT(countOff(plain, unsaid), plain.size() / 50) << "surfaces are taken to be elsewhere";
-            bench.frame.camera.clip_depth = ClipDepth::minus_one_to_one;
+            bench.camera.clip_depth = ClipDepth::minus_one_to_one;
             EXPECT_LE(countOff(plain, maskOf(bench, light)), 2U);
         }
     }
@@ -89,8 +89,8 @@ TEST(Handedness, aLeftHandedWorldHasTheMasksOfItsMirrorImage)
             box.angle = -box.angle;
         }
         const glm::dmat4 mirror(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
-        left.frame.camera.eye_ws = mirrored(left.frame.camera.eye_ws);
-        left.frame.camera.clip_from_world = left.frame.camera.clip_from_world * mirror;
+        left.camera.eye_ws = mirrored(left.camera.eye_ws);
+        left.camera.clip_from_world = left.camera.clip_from_world * mirror;
         left.setLights(
             {makeSun(mirrored({0.8, -0.9, -0.35})), makeSpot(mirrored({-6.0, 9.0, 5.0}), {0.0, 0.0, 0.0}, 0.6)}, kTiles,
             {kSide, kSide, 2});

@@ -46,9 +46,8 @@ protected:
         lights_ = {makeSun({0.8, -0.9, -0.35}), makeSpot({-6.0, 9.0, 5.0}, {0.0, 0.0, 0.0}, 0.6)};
         const Tile tiles[] = {{0, 0, 0, 128, 128}, {0, 128, 0, 128, 128}};
         plan_ = makePlan(scene_, lights_, tiles, {256, 128, 1}, options_);
-        frame_.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(kScreen.width) / kScreen.height);
-        frame_.lights = lights_;
-        picture_ = tracePicture(scene_, frame_.camera, kScreen);
+        plan_.made_for.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(kScreen.width) / kScreen.height);
+        picture_ = tracePicture(scene_, plan_.made_for.camera, kScreen);
         inputs_ = uploadPicture(gpu(), picture_);
         renderer_ = std::make_unique<vulkan::ShadowRenderer>(gpu().view(),
                                                              vulkan::ShadowRendererOptions{.frames_in_flight = 1});
@@ -143,7 +142,6 @@ protected:
     ShadowOptions options_{.technique = kPlainTechnique};
     std::vector<Light> lights_;
     Plan plan_;
-    Frame frame_;
     Picture picture_;
     vulkan::MaskInputs inputs_;
     std::unique_ptr<vulkan::ShadowRenderer> renderer_;

@@ -143,9 +143,6 @@ TEST(HostHandles, AreWrittenInEveryFrame)
     const Scene scene = makeScene();
     const std::vector<Light> lights{makeSun({0.5, -1.0, 0.2})};
     const Plan plan = makePlan(scene, lights, std::vector<Tile>{{0, 0, 0, 64, 64}}, {64, 64, 1});
-    Frame frame;
-    frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
-    frame.lights = lights;
     vulkan::MaskInputs inputs;
     inputs.extent = kPicture;
     inputs.depth = driver.makeView();

@@ -25,9 +25,6 @@ public:
         if (warped) {
             plan.views[0].orthographic = false;
         }
-        Frame frame;
-        frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
-        frame.lights = lights;
         const auto before = driver_.counts().pipelines;
         (void)renderer_.prepare(plan, kScreen);
         const auto prepared = driver_.counts().pipelines;

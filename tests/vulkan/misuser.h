@@ -32,8 +32,6 @@ public:
         lights = {makeSun({0.5, -1.0, 0.2}), makeSpot({4.0, 8.0, 2.0}, {0.0, 0.0, 0.0}, 0.5)};
         const std::vector<Tile> tiles{{0, 0, 0, 256, 256}, {1, 0, 0, 256, 256}};
         plan = makePlan(scene, lights, tiles, {256, 256, 2}, options);
-        frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
-        frame.lights = lights;
         inputs.extent = kPicture;
         inputs.depth = driver.makeView();
         parts = {{{0, 6, 0}, 0}, {{6, 36, 4}, 1}};
@@ -70,7 +68,6 @@ public:
     Scene scene = makeScene();
     std::vector<Light> lights;
     Plan plan;
-    Frame frame;
     vulkan::MaskInputs inputs;
     std::vector<vulkan::DrawPart> parts;
     std::vector<vulkan::DrawObject> objects;

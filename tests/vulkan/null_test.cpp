@@ -35,8 +35,6 @@ public:
         }
         plan =
             makePlan(scene, lights, tiles, {256, 256, light_count}, {.technique = kPlainTechnique, .format = format});
-        frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
-        frame.lights = lights;
         inputs.extent = kScreen;
         inputs.depth = driver.makeView();
         inputs.normal = driver.makeView();
@@ -82,7 +80,6 @@ public:
     std::vector<Light> lights;
     Plan plan;
     MapNames names;
-    Frame frame;
     vulkan::MaskInputs inputs;
     vulkan::CasterGeometry geometry;
     std::vector<vulkan::Rows3x4> transforms;

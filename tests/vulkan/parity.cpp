@@ -210,11 +210,10 @@ Rendered renderParity(const ShadowOptions& options, ParityLights lights)
     setLights(lights, options, r);
     r.plan.options = planOptions(options);
     constexpr std::uint32_t kFrames = 3;
-    Frame frame;
-    frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(kParityScreen.width) / kParityScreen.height);
-    frame.lights = r.lights;
-    r.camera = frame.camera;
-    r.picture = tracePicture(r.scene, frame.camera, kParityScreen);
+    r.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(kParityScreen.width) / kParityScreen.height);
+    r.plan.made_for.camera = r.camera;
+    r.plan.made_for.lights = r.lights;
+    r.picture = tracePicture(r.scene, r.camera, kParityScreen);
     vulkan::MaskInputs inputs = uploadPicture(gpu(), r.picture);
     if (filterTraits(options.technique.filter)->ids) {
         giveIds(options, r);

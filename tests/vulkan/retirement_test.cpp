@@ -51,9 +51,6 @@ public:
     void frame(std::uint32_t lights, std::uint32_t map_size, VkExtent2D screen, std::uint32_t kept = 0)
     {
         makePlan(lights, map_size, kept);
-        Frame frame;
-        frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
-        frame.lights = lights_;
         const std::uint32_t slot = frame_++ % 2;
         plan_.frame = frame_;
         (void)renderer.prepare(plan_, screen);
@@ -172,8 +169,6 @@ TEST_P(Retired, theDriverSeesWhatIsFreedTooEarly)
     const std::vector<Light> lights{makeSun({0.5, -1.0, 0.2})};
     const Tile tile{0, 0, 0, 64, 64};
     const Plan plan = makePlan(scene, lights, {&tile, 1}, {64, 64, 1}, optionsOf(GetParam()));
-    Frame frame;
-    frame.lights = lights;
     (void)renderer->prepare(plan, {64, 48});
     renderer->recordMaps(driver.commands(), 0, plan, [](const vulkan::MapPass&) {});
     renderer.reset();

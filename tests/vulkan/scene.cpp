@@ -325,6 +325,8 @@ Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const
     Plan plan;
     plan.options = planOptions(options);
     plan.pages[0] = atlas;
+    plan.made_for.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
+    plan.made_for.lights.assign(lights.begin(), lights.end());
     plan.mask_layers = static_cast<std::uint32_t>((lights.size() + 3) / 4);
     for (std::uint32_t i = 0; i <= scene.boxes.size(); ++i) {
         plan.casters.push_back(i);

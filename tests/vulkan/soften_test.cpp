@@ -66,7 +66,7 @@ TEST_P(SoftenParity, IsTheBlurOfTheMask)
     options.technique.soften = Soften::none;
     OneSun plain(options);
     const Plane expected =
-        SoftenReference(plain.bench.picture, plain.bench.frame.camera, options.screen_blur).of(plain.mask());
+        SoftenReference(plain.bench.picture, plain.bench.camera, options.screen_blur).of(plain.mask());
     const Plane found = blurred.mask();
     // Each pass rounds to eight bits, and halves are common between pixels of 0 and 1: of a smaller size there is a
     // third.

@@ -107,9 +107,11 @@ Suns::Suns(const Setting& setting_in, std::size_t lights, const vulkan::MemoryHo
 std::vector<Mask> Suns::maskOf(SunPosition position)
 {
     Plan plan = emptyPlan(setting, bench.scene, bench.lights.size());
+    plan.made_for.camera = bench.camera;
+    plan.made_for.lights = bench.lights;
     for (std::uint32_t i = 0; i < bench.lights.size(); ++i) {
         plan.lights[i].first_view = static_cast<std::uint32_t>(plan.views.size());
-        addViews(setting, bench.scene, bench.frame.camera, directionOf(i, position), SunPosition::only, i, plan);
+        addViews(setting, bench.scene, bench.camera, directionOf(i, position), SunPosition::only, i, plan);
         if (setting.paired_texels) {
             for (View& view : plan.views) {
                 view.part = TexelPart::whole;
@@ -122,6 +124,8 @@ std::vector<Mask> Suns::maskOf(SunPosition position)
 Plan Suns::planOf(const std::vector<SunSteps>& steps) const
 {
     Plan plan = emptyPlan(setting, bench.scene, bench.lights.size());
+    plan.made_for.camera = bench.camera;
+    plan.made_for.lights = bench.lights;
     for (std::uint32_t i = 0; i < bench.lights.size(); ++i) {
         LightPlan& light = plan.lights[i];
         light.first_view = static_cast<std::uint32_t>(plan.views.size());
@@ -131,7 +135,7 @@ Plan Suns::planOf(const std::vector<SunSteps>& steps) const
         light.steps.earlier_ws = glm::normalize(directionOf(i, SunPosition::earlier));
         light.steps.later_ws = glm::normalize(directionOf(i, SunPosition::later));
         for (const SunPosition position : {SunPosition::earlier, SunPosition::later}) {
-            addViews(setting, bench.scene, bench.frame.camera, directionOf(i, position), position, i, plan);
+            addViews(setting, bench.scene, bench.camera, directionOf(i, position), position, i, plan);
         }
     }
     return plan;

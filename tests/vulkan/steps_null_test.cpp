@@ -33,8 +33,6 @@ public:
         steps.stepping = true;
         steps.paired = true;
         steps.share = 0.5;
-        frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
-        frame.lights = lights;
         inputs.extent = kScreen;
         inputs.depth = driver.makeView();
         inputs.normal = driver.makeView();
@@ -86,7 +84,6 @@ public:
     std::vector<Light> lights{makeSun({0.5, -1.0, 0.2})};
     Plan plan;
     MapNames names;
-    Frame frame;
     vulkan::MaskInputs inputs;
     ShadowRenderer renderer;
 };

@@ -231,8 +231,8 @@ struct ShadowOptions {
     /// Receivers farther than this from the eye get no shadow, metres; 0: no limit.
     double max_distance_m = 0.0;
     double fade = 0.1; // share of max_distance_m over which shadows fade away: 0 .. 1
-    /// Fit tsm with partition single and motion free: affine pieces that the trapezoid is drawn in, each with a map of
-    /// its own, near ones smaller; 1 .. kMaxCascades. 1: all of it by one projective warp.
+    /// Fit tsm with partition single and motion free: affine segments that the trapezoid is drawn in, each with a map
+    /// of its own, near ones smaller; 1 .. kMaxCascades. 1: all of it by one projective warp.
     std::uint32_t tsm_segments = 1;
     CascadeOptions cascades;                     // partitions cascades and sdsm
     MultiOptions multi;                          // partition multi

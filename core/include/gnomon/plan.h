@@ -112,22 +112,25 @@ struct DepthMetric {
     double far_m = 1.0;        // where d' is 1
 };
 
-/// The share of what is seen that a view serves. Of most views that is a range of the camera's depth: metres from the
-/// eye along its view, dot(axis, (p, 1)). Of a lamp's views by partition multi it is a range of that depth over the
-/// depth along the light's axis, dot(over, (p, 1)): the lower, the finer the map has to be. Then the numbers below have
-/// no unit.
+/// The share of what is seen that a view serves: a range of dot(axis, (p, 1)) / dot(over, (p, 1)).
+/// - Mostly that is the camera's depth, metres from the eye along its view; `over` gives 1.
+/// - A lamp's views by partition multi have that depth over the depth along the light's axis, which has no unit. The
+///   lower it is, the finer the map has to be.
+/// - The segments of fit tsm (`across`) have a place along the trapezoid: metres from the eye across the light, or over
+///   a lamp's depth.
 struct ViewSlice {
-    glm::dvec4 axis{0.0};                                      // the row that gives metres along the camera's view
-    double begin_m = -std::numeric_limits<double>::infinity(); // where it begins; -infinity: at the eye
+    glm::dvec4 axis{0.0};                                      // the row of what is counted
+    double begin_m = -std::numeric_limits<double>::infinity(); // where it begins; -infinity: nowhere
     double end_m = std::numeric_limits<double>::infinity();    // where it ends; infinity: nowhere
     /// Where the view before it, which serves as far as here too, fades over into this one: from begin_m to begin_m +
     /// blend_m. 0: there is none before it.
     double blend_m = 0.0;
     glm::dvec4 over{0.0, 0.0, 0.0, 1.0}; // 1 everywhere, or the row `w` of the view's sector
+    bool across = false;                 // it counts along the map, and not along the camera's view
 
     /// It is less than everything.
     [[nodiscard]] bool bounded() const { return std::isfinite(begin_m) || std::isfinite(end_m); }
-    /// It counts depth over depth.
+    /// It counts over a lamp's depth.
     [[nodiscard]] bool isRatio() const { return glm::dvec3(over) != glm::dvec3(0.0); }
     /// Of a point in the view's sector.
     [[nodiscard]] double depthAt(const glm::dvec3& p_ws) const
@@ -286,8 +289,8 @@ struct FittedView {
     glm::dvec2 scale{1.0};                                     // how many times finer than the base map, by axis
     glm::dvec2 centre{0.0};                                    // of what the view shows, on the base map
     double begin_m = -std::numeric_limits<double>::infinity(); // as ViewSlice
-    double end_m = std::numeric_limits<double>::infinity();    // likewise
-    double blend_m = 0.0;                                      // likewise
+    double end_m = std::numeric_limits<double>::infinity();    // as ViewSlice
+    double blend_m = 0.0;                                      // as ViewSlice
     /// Of the base map, the rectangle that the slice's pixels lie in; low > high: there are none, and the view is the
     /// base map.
     glm::dvec2 seen_low{1.0};
@@ -308,7 +311,7 @@ struct SunSteps {
     /// There are views of two positions (SunPosition); else of one alone, SunPosition::only.
     bool paired = false;
     glm::dvec3 earlier_ws{0.0, -1.0, 0.0}; // unit, the way light travels
-    glm::dvec3 later_ws{0.0, -1.0, 0.0};   // likewise
+    glm::dvec3 later_ws{0.0, -1.0, 0.0};   // unit
     double share = 0.0;                    // how far the sun itself has got from one to the other: 0 .. 1
     bool smooth = false;                   // the weight is a cubic of the share, else linear
     double band = 0.0;                     // width, share of the picture's; 0: the weight is the same all over
@@ -388,7 +391,8 @@ struct MapPages {
     std::uint32_t longest_wait = 0;   // frames
 };
 
-/// Of the frame that a plan was made for, what those go by who draw by it.
+/// The frame that a plan was made for, as far as backends ask. A plan serves another eye close by, too: set `camera` in
+/// a copy of it, and its views to draw nothing more (View::redraw, presumes = makes).
 struct PlannedFrame {
     Camera camera;
     glm::uvec2 size_px{0};     // Frame::size_px

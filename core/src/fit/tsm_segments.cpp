@@ -16,7 +16,7 @@ struct Trapezoid {
     double widening = 0.0; // of the sides, as a share of the near end's width
 
     [[nodiscard]] double depthAt(double s) const { return low + slope * s; }
-    /// Where the piece ends that begins at `a` and has the error `e`: (b - a) (1 + widening b) = (e depth(a))^2.
+    /// Where the segment ends that begins at `a` and has the error `e`: (b - a) (1 + widening b) = (e depth(a))^2.
     [[nodiscard]] double endFrom(double a, double e) const
     {
         const double area = e * depthAt(a) * e * depthAt(a);
@@ -55,7 +55,7 @@ TsmSegments segmentTsm(const FitInput& input, std::uint32_t count)
         return found;
     }
     double low = 0.0;
-    double high = std::sqrt(shape.length * (1.0 + shape.widening * shape.length)) / shape.low; // of one piece
+    double high = std::sqrt(shape.length * (1.0 + shape.widening * shape.length)) / shape.low; // of one segment
     for (int step = 0; step < kSteps; ++step) {
         const double e = 0.5 * (low + high);
         double end = 0.0;

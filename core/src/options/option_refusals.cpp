@@ -187,7 +187,7 @@ std::optional<std::string> roomRefusal(const ShadowOptions& options)
     return std::nullopt;
 }
 
-/// Pieces of one frustum's trapezoid, found anew in each frame.
+/// Segments of one frustum's trapezoid, found anew in each frame.
 std::optional<std::string> segmentsRefusal(const ShadowOptions& options)
 {
     if (segments(options) > 1 && options.technique.partition != Partition::single) {

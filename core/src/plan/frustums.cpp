@@ -6,7 +6,7 @@
 namespace gnomon {
 namespace {
 
-/// Of a light's own maps, or of one of its frustums.
+/// The key of a light's own maps, or of those of one of its frustums.
 std::uint64_t tenantKey(const Light& light, std::uint32_t frustum)
 {
     return std::uint64_t{light.key} << 32U | frustum;
@@ -212,7 +212,7 @@ void Frustums::addDivided(const Sights& sights, const Stand& stand)
     }
 }
 
-/// Of the one slice that there is.
+/// Puts them in the place of the one slice that there is.
 void Frustums::addSegments(const Sights& sights, const Stand& stand, std::uint32_t count)
 {
     const Setup& setup = sights.setups()[stand.at.options];

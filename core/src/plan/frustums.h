@@ -39,13 +39,13 @@ class Frustums {
 public:
     /// Finds what lights want that may have maps, and says in the plan what was chosen for them.
     void divide(const Sights& sights, Plan& plan);
-    /// Then some may have to wait that would be divided otherwise.
+    /// It is divided otherwise than in the frame before. Then it may have to wait (Schedule::foresee()).
     [[nodiscard]] bool differs(std::uint32_t light) const { return multi_.differs(light); }
     /// It is divided as in the frame before.
     void keepDivision(const Sights& sights, std::uint32_t light);
-    /// The next frame finds what the frame before left of it.
+    /// It waits: the next frame goes on from the frame before.
     void keepMemory(std::uint32_t light) { multi_.restoreMemory(light); }
-    /// Of all the maps that a light wants.
+    /// The texels of all the maps that a light wants.
     [[nodiscard]] std::uint64_t texelsWanted(const Sights& sights, std::uint32_t light) const;
     /// Fills the table.
     void list(const Sights& sights, const Plan& plan);
@@ -62,7 +62,7 @@ public:
     /// A light's tenants are from the one to before the other.
     [[nodiscard]] std::uint32_t firstTenant(std::uint32_t light) const { return first_tenants_[light]; }
     [[nodiscard]] std::uint32_t endTenant(std::uint32_t light) const { return first_tenants_[light + 1]; }
-    /// Its tenant's share of what the light is worth: 0 .. 1.
+    /// The tenant's share of the light's claim to texels: 0 .. 1.
     [[nodiscard]] double worthOf(std::uint32_t light, std::uint32_t tenant) const;
     /// None of a light that cannot have any.
     [[nodiscard]] std::span<const Stand> standsOf(std::uint32_t light) const;

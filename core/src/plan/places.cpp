@@ -101,7 +101,7 @@ void Places::shrink(Sights& sights, Frustums& frustums, std::uint32_t options)
     }
 }
 
-/// What a light's maps claim. The error of the picture for which frustums were made is how they share its worth.
+/// A light's claim for texels, shared among its frustums by the errors that they were made for.
 void Places::claimFor(std::uint32_t light, double share, const Frustums& frustums)
 {
     for (std::uint32_t tenant = frustums.firstTenant(light); tenant < frustums.endTenant(light); ++tenant) {

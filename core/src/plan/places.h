@@ -17,7 +17,7 @@ public:
     void furnish(Sights& sights, Frustums& frustums);
     /// How much smaller maps are than they were wanted, and the pages that all of them have.
     void report(const Frustums& frustums, Plan& plan) const;
-    /// Nobody knows what the maps hold, nor whose they are.
+    /// Forgets all maps: after a plan that ended half way nobody knows what they hold.
     void renew(const std::vector<Setup>& setups);
 
     [[nodiscard]] MapStore& store() { return store_; }

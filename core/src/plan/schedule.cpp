@@ -112,7 +112,7 @@ void Schedule::foreseeOf(Sights& sights, Frustums& frustums, const MapStore& sto
                 return view.gpu_cascade == kNoIndex && store.holds(view);
             });
         turn.kept_back = turn.keeps_views && recipe.grows() && frustums.differs(index);
-        // What most lights had to be drawn for in the frame before, they have in this one.
+        // Most lights have as much to draw as in the frame before.
         turn.texels = turn.keeps_views && !turn.kept_back ? known.texels : frustums.texelsWanted(sights, index);
         claims_.push_back({index, turn.share, turn.texels, known.waited, turn.keeps_views, false});
     }
@@ -163,70 +163,71 @@ void Schedule::keepRoom(const Frustums& frustums, const Places& places)
 
 void Schedule::take(const Sights& sights, Frustums& frustums, Places& places, std::vector<ViewMap>& maps, Plan& plan)
 {
-    const Step step{sights, frustums, places.store(), maps, plan};
+    const Results results{sights, frustums, places.store(), maps, plan};
     if (takes_turns_) {
         for (std::uint32_t options = 0; options < sights.setups().size(); ++options) {
-            takeOf(step, options);
+            takeOf(results, options);
         }
         if (std::ranges::any_of(lights_, &Turn::waits) || std::ranges::any_of(maps, &ViewMap::waits)) {
-            putViewsBack(step);
+            putViewsBack(results);
         }
-        noteGrounds(step);
-        note(step);
+        noteGrounds(results);
+        note(results);
     }
-    draw(step);
+    draw(results);
 }
 
-void Schedule::takeOf(const Step& step, std::uint32_t options)
+void Schedule::takeOf(const Results& results, std::uint32_t options)
 {
     claims_.clear();
     for (std::uint32_t index = 0; index < lights_.size(); ++index) {
         Turn& turn = lights_[index];
-        const LightPlan& planned = step.plan.lights[index];
+        const LightPlan& planned = results.plan.lights[index];
         if (!turn.bounded || turn.waits || planned.options != options) {
             continue;
         }
         if (turn.by_cascade) {
-            claimByCascade(step, index);
+            claimByCascade(results, index);
             continue;
         }
         turn.texels = 0;
         for (std::uint32_t i = planned.first_view; i < planned.first_view + planned.view_count; ++i) {
-            turn.texels += texelsDue(step, i);
+            turn.texels += texelsDue(results, i);
         }
         claims_.push_back({index, turn.share, turn.texels, knownOf(index).waited, turn.keeps_views, false});
     }
-    const Recipe& recipe = step.sights.setups()[options].recipe;
-    order_.take(claims_, drawBudget(step.sights.frame(), recipe.options), recipe.options.longest_wait);
+    const Recipe& recipe = results.sights.setups()[options].recipe;
+    order_.take(claims_, drawBudget(results.sights.frame(), recipe.options), recipe.options.longest_wait);
     for (const DrawTurn& claim : claims_) {
         if (claim.view != kNoIndex) {
-            step.maps[claim.view].waits = !claim.drawn;
+            results.maps[claim.view].waits = !claim.drawn;
             continue;
         }
         lights_[claim.light].waits = !claim.drawn;
         if (!claim.drawn && recipe.grows()) {
-            step.frustums.keepMemory(claim.light);
+            results.frustums.keepMemory(claim.light);
         }
     }
 }
 
 /// Texels that have to be drawn for a view as it is planned.
-std::uint64_t Schedule::texelsDue(const Step& step, std::uint32_t index)
+std::uint64_t Schedule::texelsDue(const Results& results, std::uint32_t index)
 {
-    const View& view = step.plan.views[index];
+    const View& view = results.plan.views[index];
     if (view.gpu_cascade != kNoIndex) {
         return std::uint64_t{view.tile.width} * view.tile.height;
     }
-    const std::span<const std::uint32_t> casters = step.plan.casters;
-    return step.store.wouldDraw(view, *step.maps[index].place, casters.subspan(view.first_caster, view.caster_count),
-                                *step.sights.frame().objects);
+    const std::span<const std::uint32_t> casters = results.plan.casters;
+    return results.store.wouldDraw(view, *results.maps[index].place,
+                                   casters.subspan(view.first_caster, view.caster_count),
+                                   *results.sights.frame().objects);
 }
 
 /// Gives the lights and cascades that wait the views that they had.
-void Schedule::putViewsBack(const Step& step)
+void Schedule::putViewsBack(const Results& results)
 {
-    Plan& plan = step.plan;
-    const Frame& frame = step.sights.frame();
+    Plan& plan = results.plan;
+    const Frame& frame = results.sights.frame();
     next_views_.clear();
     next_casters_.clear();
     next_maps_.clear();
@@ -242,11 +243,11 @@ void Schedule::putViewsBack(const Step& step)
             }
         } else {
             for (std::uint32_t i = first; i < first + planned.view_count; ++i) {
-                if (!step.maps[i].waits) {
-                    addBack(frame, plan.views[i], plan.casters, step.maps[i]);
+                if (!results.maps[i].waits) {
+                    addBack(frame, plan.views[i], plan.casters, results.maps[i]);
                     continue;
                 }
-                View kept = asDrawn(*viewBefore(step.store, index, plan.views[i].map), index);
+                View kept = asDrawn(*viewBefore(results.store, index, plan.views[i].map), index);
                 kept.slice = plan.views[i].slice;
                 planned.waited = std::max(planned.waited, kept.waited);
                 addBack(frame, kept, casters_, {});
@@ -256,10 +257,10 @@ void Schedule::putViewsBack(const Step& step)
     }
     std::swap(plan.views, next_views_);
     std::swap(plan.casters, next_casters_);
-    std::swap(step.maps, next_maps_);
+    std::swap(results.maps, next_maps_);
 }
 
-/// Who is gone since cannot be drawn, should a backend have to draw the map all the same.
+/// Leaves out casters that are gone since: a backend may have to draw the map all the same.
 void Schedule::addBack(const Frame& frame, View view, std::span<const std::uint32_t> from, const ViewMap& map)
 {
     const auto casters = from.subspan(view.first_caster, view.caster_count);
@@ -277,13 +278,13 @@ void Schedule::addBack(const Frame& frame, View view, std::span<const std::uint3
     next_maps_.push_back(map);
 }
 
-/// What the next frame is held against.
-void Schedule::note(const Step& step)
+/// Remembers what the next frame is held against.
+void Schedule::note(const Results& results)
 {
-    objects_ = step.sights.frame().objects->identity();
+    objects_ = results.sights.frame().objects->identity();
     for (std::uint32_t index = 0; index < lights_.size(); ++index) {
-        const LightPlan& planned = step.plan.lights[index];
-        const Light& light = step.sights.frame().lights[index];
+        const LightPlan& planned = results.plan.lights[index];
+        const Light& light = results.sights.frame().lights[index];
         Known& known = knownOf(index);
         known = {};
         if (lights_[index].bounded) {
@@ -293,20 +294,20 @@ void Schedule::note(const Step& step)
     }
 }
 
-void Schedule::draw(const Step& step)
+void Schedule::draw(const Results& results)
 {
-    const ObjectSet& objects = *step.sights.frame().objects;
-    for (std::size_t i = 0; i < step.plan.views.size(); ++i) {
-        View& view = step.plan.views[i];
-        const ViewMap& map = step.maps[i];
+    const ObjectSet& objects = *results.sights.frame().objects;
+    for (std::size_t i = 0; i < results.plan.views.size(); ++i) {
+        View& view = results.plan.views[i];
+        const ViewMap& map = results.maps[i];
         if (map.place == nullptr) {
             continue; // of a light that waits
         }
         if (view.gpu_cascade != kNoIndex) {
-            step.store.drawAnew(view);
+            results.store.drawAnew(view);
         } else if (map.read) {
-            step.store.draw(view, *map.place,
-                            std::span(step.plan.casters).subspan(view.first_caster, view.caster_count), objects);
+            results.store.draw(view, *map.place,
+                               std::span(results.plan.casters).subspan(view.first_caster, view.caster_count), objects);
         } else {
             view.redraw = false;
         }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fifth step of a plan: which maps still hold what they should, what is drawn, and who waits. Where a frame may not
-// draw all that is out of date, lights take turns, and cascades of a light do with CascadeOptions::room. Who waits
-// keeps the views of the plan before.
+// draw all that is out of date, lights take turns, and cascades of a light do with CascadeOptions::room. A light or
+// cascade that waits keeps the views of the plan before.
 //
-// Of most lights that is decided when all is planned and what drawing takes is known. A light that `multi` would divide
-// otherwise would lose its squares by that; so of those it is decided before, by the most that they may take.
+// Most turns are taken when all is fitted, because only then is it known how much there is to draw. A light that
+// `multi` would divide otherwise would lose its squares meanwhile, so its turn is taken before furnishing, by an upper
+// bound.
 #pragma once
 
 #include "cascade_turns.h"
@@ -18,7 +19,7 @@
 
 namespace gnomon {
 
-/// What the camera would see with room around its picture.
+/// The camera's view with room around its picture.
 struct WideSight {
     bool looked = false; // in this frame
     Frame frame;
@@ -26,7 +27,7 @@ struct WideSight {
     std::vector<std::uint32_t> receivers;
 };
 
-/// Of a cascade that may wait by itself: what its map is to be planned for.
+/// The view for which the map of a cascade is planned that may wait by itself.
 struct WideTurn {
     Outcome outcome; // not ok: it needs no map
     const WideSight* seen = nullptr;
@@ -39,13 +40,13 @@ public:
     explicit Schedule(const std::vector<Setup>& setups);
     /// Takes the views of the plan before out of the plan.
     void begin(Plan& plan);
-    /// Who waits of those that would be divided otherwise. They are divided as before.
+    /// Takes the turns of lights that `multi` would divide otherwise. Those that wait are divided as before.
     void foresee(Sights& sights, Frustums& frustums, const Places& places, const Plan& plan);
     /// Maps that others need room of, or that have another size now, hold nothing that could be kept.
     void keepRoom(const Frustums& frustums, const Places& places);
-    /// Who waits of all, and what is drawn of the others.
+    /// Takes all other turns, and says in the plan what is drawn of each map.
     void take(const Sights& sights, Frustums& frustums, Places& places, std::vector<ViewMap>& maps, Plan& plan);
-    /// What is drawn of all, and who waits how long.
+    /// Sums up in the plan what is drawn, and how long others wait.
     static void report(Plan& plan);
     /// Nobody has views that could stand for others.
     void forget();
@@ -82,8 +83,8 @@ private:
         std::uint64_t texels = 0; // that had to be drawn for it, or were thought to
         Outcome outcome;
     };
-    /// What the turns of a frame are taken by.
-    struct Step {
+    /// The results of the steps before.
+    struct Results {
         const Sights& sights;
         Frustums& frustums;
         MapStore& store;
@@ -94,24 +95,24 @@ private:
     void follow(std::span<const Light> frame);
     [[nodiscard]] Known& knownOf(std::size_t light) { return known_[rows_.rowOf(light)]; }
     [[nodiscard]] const Known& knownOf(std::size_t light) const { return known_[rows_.rowOf(light)]; }
-    /// Of the plan before.
+    /// The light's views in the plan before.
     [[nodiscard]] std::span<const View> viewsOf(std::size_t light) const
     {
         return std::span(views_).subspan(knownOf(light).first_view, knownOf(light).view_count);
     }
     void foreseeOf(Sights& sights, Frustums& frustums, const MapStore& store, const Plan& plan, std::uint32_t options);
     [[nodiscard]] bool isAsBefore(const Sights& sights, std::uint32_t light) const;
-    void takeOf(const Step& step, std::uint32_t options);
-    [[nodiscard]] static std::uint64_t texelsDue(const Step& step, std::uint32_t view);
-    void putViewsBack(const Step& step);
+    void takeOf(const Results& results, std::uint32_t options);
+    [[nodiscard]] static std::uint64_t texelsDue(const Results& results, std::uint32_t view);
+    void putViewsBack(const Results& results);
     void addBack(const Frame& frame, View view, std::span<const std::uint32_t> casters, const ViewMap& map);
-    void note(const Step& step);
-    static void draw(const Step& step);
+    void note(const Results& results);
+    static void draw(const Results& results);
     // schedule_cascades.cpp
     [[nodiscard]] const View* viewBefore(const MapStore& store, std::uint32_t light, const MapId& map) const;
     WideSight& lookWide(const Sights& sights, std::uint32_t options);
-    void claimByCascade(const Step& step, std::uint32_t light);
-    void noteGrounds(const Step& step);
+    void claimByCascade(const Results& results, std::uint32_t light);
+    void noteGrounds(const Results& results);
 
     bool takes_turns_ = false; // some lights: their options bound what is drawn in a frame
     LightRows rows_;

@@ -53,7 +53,7 @@ WideSight& Schedule::lookWide(const Sights& sights, std::uint32_t options)
     return wide;
 }
 
-/// Of the plan before, the view that a light's map was in; null: there is none, or the map does not hold it.
+/// The view that a light's map had in the plan before; null: there is none, or the map does not hold it.
 const View* Schedule::viewBefore(const MapStore& store, std::uint32_t light, const MapId& map) const
 {
     if (!lights_[light].is_same) {
@@ -64,31 +64,31 @@ const View* Schedule::viewBefore(const MapStore& store, std::uint32_t light, con
     return found != views.end() && store.holds(*found) ? &*found : nullptr;
 }
 
-/// Of each of a light's cascades its claim to be drawn. Near ones take more of the picture.
-void Schedule::claimByCascade(const Step& step, std::uint32_t index)
+/// Each of a light's cascades claims to be drawn. Near ones take more of the picture.
+void Schedule::claimByCascade(const Results& results, std::uint32_t index)
 {
     constexpr double kLeastPart = 0.01; // share of a slice in which none of the points in sight is
-    const LightPlan& planned = step.plan.lights[index];
-    const std::span<const SightPoint> points = step.sights.setups()[planned.options].sight.points();
+    const LightPlan& planned = results.plan.lights[index];
+    const std::span<const SightPoint> points = results.sights.setups()[planned.options].sight.points();
     for (std::uint32_t i = planned.first_view; i < planned.first_view + planned.view_count; ++i) {
-        const View& view = step.plan.views[i];
-        const View* const before = viewBefore(step.store, index, view.map);
+        const View& view = results.plan.views[i];
+        const View* const before = viewBefore(results.store, index, view.map);
         const auto within = std::ranges::count_if(points, [&](const SightPoint& point) {
             return point.depth_m >= view.slice.begin_m && point.depth_m <= view.slice.end_m;
         });
         const double part =
             std::max(static_cast<double>(within) / std::max(static_cast<double>(points.size()), 1.0), kLeastPart);
-        claims_.push_back({index, lights_[index].share * part, texelsDue(step, i),
-                           before != nullptr ? before->waited : 0, step.maps[i].may_wait, false, i});
+        claims_.push_back({index, lights_[index].share * part, texelsDue(results, i),
+                           before != nullptr ? before->waited : 0, results.maps[i].may_wait, false, i});
     }
 }
 
-/// What the maps that are drawn were planned for.
-void Schedule::noteGrounds(const Step& step)
+/// Remembers what the maps that are drawn were planned for.
+void Schedule::noteGrounds(const Results& results)
 {
-    for (std::size_t i = 0; i < step.plan.views.size(); ++i) {
-        if (step.maps[i].own_turn) {
-            const std::size_t map = step.plan.views[i].map.index;
+    for (std::size_t i = 0; i < results.plan.views.size(); ++i) {
+        if (results.maps[i].own_turn) {
+            const std::size_t map = results.plan.views[i].map.index;
             std::swap(grounds_[map], next_grounds_[map]);
         }
     }

@@ -76,7 +76,7 @@ void Sights::setNearDistances(const Outcome& fault)
     frame_.lights = near_lights_;
 }
 
-/// What of the pictures before still holds where they are averaged.
+/// Pictures that are averaged begin anew where too much has moved.
 void Sights::noteMovement(Plan& plan)
 {
     plan.moved_ws.clear();
@@ -230,7 +230,7 @@ LightSample Sights::sampleOf(const Light& light, const Recipe& recipe) const
     return sample;
 }
 
-/// What the camera sees by any of the options that count in this frame.
+/// Lists the receivers that the camera sees by any of the options that count in this frame.
 void Sights::listReceivers(Plan& plan)
 {
     plan.receivers.clear();

@@ -42,7 +42,7 @@ struct LightSight {
     LightSample sample;             // from which point of a light whose mask is a mean over frames it is seen
 };
 
-/// What a frame comes after.
+/// The frames before this one.
 struct FramesBefore {
     std::uint64_t count = 0; // planned so far
     bool camera_moves = true;
@@ -50,7 +50,7 @@ struct FramesBefore {
 
 class Sights {
 public:
-    /// Of no options the default ones.
+    /// Without any options it has the default ones.
     explicit Sights(std::span<const ShadowOptions> options);
 
     /// Fills in what is seen, and of the plan the lights, with what is wrong with each, and the receivers. `fault`: not
@@ -68,14 +68,14 @@ public:
     [[nodiscard]] std::vector<Setup>& setups() { return setups_; }
     [[nodiscard]] const std::vector<Setup>& setups() const { return setups_; }
     [[nodiscard]] const std::vector<LightSight>& lights() const { return lights_; }
-    /// Of the receivers that the camera sees, those that a light of the frame may reach.
+    /// The receivers that the camera sees and the light may reach.
     [[nodiscard]] std::span<const std::uint32_t> receiversOf(std::uint32_t light) const;
-    /// Of the scene, where a steady map measures level depth.
+    /// All receivers of the scene, where a steady map measures level depth.
     [[nodiscard]] std::span<const std::uint32_t> allReceivers() const { return all_receivers_; }
     [[nodiscard]] const Aabb& scene_ws() const { return scene_.box_ws(); }
     /// Which frame of a mean over frames this is.
     [[nodiscard]] std::uint64_t converging() const { return converging_; }
-    /// What the picture owes to each light, by what is seen with one of the options.
+    /// Each light's share of the picture, by what is seen with one of the options.
     const LightShares& findShares(std::uint32_t options);
 
 private:

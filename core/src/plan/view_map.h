@@ -5,7 +5,7 @@
 
 namespace gnomon {
 
-/// Whose map a view of the plan has. What of it has to be drawn is said when all views are known.
+/// The map of a view of the plan, and whether the view may wait.
 struct ViewMap {
     const MapPlace* place = nullptr; // null: the view is of the plan before, with nothing to draw
     bool read = true;                // in this frame

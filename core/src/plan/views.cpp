@@ -12,7 +12,7 @@
 namespace gnomon {
 namespace {
 
-/// Of what becomes of a light's frustums, the highest is what is said of the light.
+/// A light's outcome is that of the frustum that ranks highest.
 int rank(OutcomeKind kind)
 {
     constexpr OutcomeKind kUpwards[] = {OutcomeKind::no_receiver, OutcomeKind::no_caster, OutcomeKind::degenerate,
@@ -30,47 +30,47 @@ void Views::fit(const Sights& sights, const Frustums& frustums, const Places& pl
     plan.object_bounds.clear();
     plan.object_pieces.clear();
     maps_.clear();
-    const Step step{sights, frustums, places, schedule, plan};
+    const Results from{sights, frustums, places, schedule, plan};
     for (std::uint32_t light = 0; light < plan.lights.size(); ++light) {
-        fitLight(step, light);
+        fitLight(from, light);
     }
 }
 
-void Views::fitLight(const Step& step, std::uint32_t index)
+void Views::fitLight(const Results& from, std::uint32_t index)
 {
-    LightPlan& planned = step.plan.lights[index];
-    const Recipe& recipe = step.setupOf(index).recipe;
-    planned.first_view = static_cast<std::uint32_t>(step.plan.views.size());
+    LightPlan& planned = from.plan.lights[index];
+    const Recipe& recipe = from.setupOf(index).recipe;
+    planned.first_view = static_cast<std::uint32_t>(from.plan.views.size());
     if (!recipe.hasMaps()) {
-        listVolumes(step, index);
+        listVolumes(from, index);
         return;
     }
-    if (step.schedule.isKeptBack(index)) {
+    if (from.schedule.isKeptBack(index)) {
         return; // its views are those of the plan before
     }
     if (planned.outcome.kind == OutcomeKind::ok) {
-        planned.outcome = prospect(step, index);
+        planned.outcome = prospect(from, index);
     }
     if (planned.outcome.kind == OutcomeKind::ok && recipe.filter->ids) {
-        planned.outcome = handOutIds(step, index);
+        planned.outcome = handOutIds(from, index);
     }
     if (planned.outcome.kind == OutcomeKind::ok) {
-        planned.outcome = fitStands(step, index);
+        planned.outcome = fitStands(from, index);
     }
-    planned.view_count = static_cast<std::uint32_t>(step.plan.views.size()) - planned.first_view;
+    planned.view_count = static_cast<std::uint32_t>(from.plan.views.size()) - planned.first_view;
 }
 
 /// Can a light that may have maps have any in this frame?
-Outcome Views::prospect(const Step& step, std::uint32_t index)
+Outcome Views::prospect(const Results& from, std::uint32_t index)
 {
-    const Setup& setup = step.setupOf(index);
-    if (setup.recipe.hasMaps() && !step.places.hasRoom(step.frustums, index, setup.recipe)) {
+    const Setup& setup = from.setupOf(index);
+    if (setup.recipe.hasMaps() && !from.places.hasRoom(from.frustums, index, setup.recipe)) {
         return {OutcomeKind::atlas_full, "the atlas has no layer left for this light"};
     }
     if (setup.camera.outcome.kind != OutcomeKind::ok) {
         return setup.camera.outcome;
     }
-    const ObjectSet& objects = *step.sights.frame().objects;
+    const ObjectSet& objects = *from.sights.frame().objects;
     if (setup.receivers.empty()) {
         return {
             OutcomeKind::no_receiver,
@@ -79,7 +79,7 @@ Outcome Views::prospect(const Step& step, std::uint32_t index)
                 : "the camera sees nothing that receives shadow"};
     }
     if (setup.recipe.options.technique.filter == Filter::pcss) {
-        const Outcome width = widthForPcss(step.sights.frame().lights[index], objects);
+        const Outcome width = widthForPcss(from.sights.frame().lights[index], objects);
         if (width.kind != OutcomeKind::ok) {
             return width;
         }
@@ -88,17 +88,17 @@ Outcome Views::prospect(const Step& step, std::uint32_t index)
 }
 
 /// A frustum without receivers or casters needs no map; the light has one when any frustum does.
-Outcome Views::fitStands(const Step& step, std::uint32_t index)
+Outcome Views::fitStands(const Results& from, std::uint32_t index)
 {
-    step.plan.lights[index].sample = step.sights.lights()[index].sample;
+    from.plan.lights[index].sample = from.sights.lights()[index].sample;
     std::optional<Outcome> best;
-    for (const Stand& stand : step.frustums.standsOf(index)) {
+    for (const Stand& stand : from.frustums.standsOf(index)) {
         if (stand.frustum_count == 0 && !best) {
             best = {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
         }
-        for (const LightFrustum& frustum : step.frustums.of(stand)) {
-            const Outcome outcome = step.schedule.hasOwnTurn(stand, frustum.slice) ? fitWide(step, stand, frustum)
-                                                                                   : fitFrustum(step, stand, frustum);
+        for (const LightFrustum& frustum : from.frustums.of(stand)) {
+            const Outcome outcome = from.schedule.hasOwnTurn(stand, frustum.slice) ? fitWide(from, stand, frustum)
+                                                                                   : fitFrustum(from, stand, frustum);
             if (!best || rank(outcome.kind) > rank(best->kind)) {
                 best = outcome;
             }
@@ -107,14 +107,14 @@ Outcome Views::fitStands(const Step& step, std::uint32_t index)
     return *best;
 }
 
-Outcome Views::fitFrustum(const Step& step, const Stand& stand, const LightFrustum& frustum)
+Outcome Views::fitFrustum(const Results& from, const Stand& stand, const LightFrustum& frustum)
 {
-    const Setup& setup = step.setupOf(stand.light);
+    const Setup& setup = from.setupOf(stand.light);
     const Recipe& recipe = setup.recipe;
     const bool on_gpu = frustum.gpu_cascades > 0; // whose views have a grid of their own
     const glm::dvec2 grid_move =
-        recipe.converges() ? convergeSample(step.sights.converging()).grid_texels : glm::dvec2(0.0);
-    const MapStore& store = step.places.store();
+        recipe.converges() ? convergeSample(from.sights.converging()).grid_texels : glm::dvec2(0.0);
+    const MapStore& store = from.places.store();
     const MapPlace& place = store.placeOf(frustum.tenant, stand.slot, frustum.number);
     Slice slice = frustum.slice;
     if (frustum.wanted_side > 0) { // where room is scarce its map is smaller than it asked for
@@ -125,37 +125,37 @@ Outcome Views::fitFrustum(const Step& step, const Stand& stand, const LightFrust
     fitted.sun = stand.sun;
     fitted.grid_move_texels = on_gpu ? grid_move : glm::dvec2(0.0);
     const Outcome outcome =
-        planner_.plan({step.sights.frame(), recipe, setup.camera, frustum.receivers,
-                       recipe.steady() ? step.sights.allReceivers() : frustum.receivers, stand.at, slice,
-                       place.tile.width, frustum.strength, on_gpu ? glm::dvec2(0.0) : grid_move, step.sights.scene_ws(),
+        planner_.plan({from.sights.frame(), recipe, setup.camera, frustum.receivers,
+                       recipe.steady() ? from.sights.allReceivers() : frustum.receivers, stand.at, slice,
+                       place.tile.width, frustum.strength, on_gpu ? glm::dvec2(0.0) : grid_move, from.sights.scene_ws(),
                        setup.layers, recipe.warps() ? &setup.sight : nullptr},
-                      fitted, step.plan.casters);
+                      fitted, from.plan.casters);
     if (!outcome.hasMap()) {
         return outcome;
     }
     if (!on_gpu) {
-        addView(step, stand, place, fitted);
+        addView(from, stand, place, fitted);
         return outcome;
     }
     // A base map: one view for each cascade that the GPU will fit to a part of it.
     for (fitted.gpu_cascade = 0; fitted.gpu_cascade < frustum.gpu_cascades; ++fitted.gpu_cascade) {
-        addView(step, stand, store.placeOf(frustum.tenant, stand.slot, fitted.gpu_cascade), fitted);
+        addView(from, stand, store.placeOf(frustum.tenant, stand.slot, fitted.gpu_cascade), fitted);
     }
     return outcome;
 }
 
 /// With room around what is seen, so that the map may wait while the camera moves.
-Outcome Views::fitWide(const Step& step, const Stand& stand, const LightFrustum& frustum)
+Outcome Views::fitWide(const Results& from, const Stand& stand, const LightFrustum& frustum)
 {
-    const Setup& setup = step.setupOf(stand.light);
+    const Setup& setup = from.setupOf(stand.light);
     const Recipe& recipe = setup.recipe;
-    const MapPlace& place = step.places.store().placeOf(frustum.tenant, stand.slot, frustum.number);
-    const WideTurn turn = step.schedule.wideTurn(step.sights, step.places, stand, frustum);
+    const MapPlace& place = from.places.store().placeOf(frustum.tenant, stand.slot, frustum.number);
+    const WideTurn turn = from.schedule.wideTurn(from.sights, from.places, stand, frustum);
     if (turn.outcome.kind != OutcomeKind::ok) {
         return turn.outcome;
     }
     const std::span<const std::uint32_t> levellers =
-        recipe.steady() ? step.sights.allReceivers() : std::span<const std::uint32_t>(turn.seen->receivers);
+        recipe.steady() ? from.sights.allReceivers() : std::span<const std::uint32_t>(turn.seen->receivers);
     const Slice wide = widened(frustum.slice, setup.camera, recipe.options.cascades.room);
     View fitted;
     fitted.light = stand.light;
@@ -168,29 +168,29 @@ Outcome Views::fitWide(const Step& step, const Stand& stand, const LightFrustum&
                                            .slice = wide,
                                            .map_size = place.tile.width,
                                            .strength = frustum.strength,
-                                           .scene_ws = step.sights.scene_ws(),
+                                           .scene_ws = from.sights.scene_ws(),
                                            .layers = setup.layers,
                                            .sight = recipe.warps() ? &setup.sight : nullptr,
                                            .ground = turn.ground},
-                                          fitted, step.plan.casters);
+                                          fitted, from.plan.casters);
     if (!outcome.hasMap()) {
         return outcome;
     }
     fitted.slice = frustum.slice.depth; // pixels choose by what is seen
-    addView(step, stand, place, fitted);
+    addView(from, stand, place, fitted);
     maps_.back().own_turn = true;
     maps_.back().may_wait = turn.may_wait;
     return outcome;
 }
 
-/// Says where a view's map is. What of it has to be drawn is said when all views are known.
-void Views::addView(const Step& step, const Stand& stand, const MapPlace& place, const View& fitted)
+/// Says where a view's map is. Schedule says later what of it has to be drawn.
+void Views::addView(const Results& from, const Stand& stand, const MapPlace& place, const View& fitted)
 {
-    View& view = step.plan.views.emplace_back(fitted);
+    View& view = from.plan.views.emplace_back(fitted);
     view.map = place.map;
     view.tile = place.tile;
     view.part = place.part;
-    view.ids_key = idsKey(step.plan, view);
+    view.ids_key = idsKey(from.plan, view);
     maps_.push_back({&place, stand.read});
 }
 

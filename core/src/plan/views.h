@@ -24,8 +24,8 @@ public:
     [[nodiscard]] std::vector<ViewMap>& maps() { return maps_; }
 
 private:
-    /// What all lights of one frame are fitted by.
-    struct Step {
+    /// The results of the steps before, and the plan.
+    struct Results {
         const Sights& sights;
         const Frustums& frustums;
         const Places& places;
@@ -37,18 +37,18 @@ private:
             return sights.setups()[plan.lights[light].options];
         }
     };
-    void fitLight(const Step& step, std::uint32_t index);
-    [[nodiscard]] static Outcome prospect(const Step& step, std::uint32_t index);
-    Outcome fitStands(const Step& step, std::uint32_t index);
-    Outcome fitFrustum(const Step& step, const Stand& stand, const LightFrustum& frustum);
-    Outcome fitWide(const Step& step, const Stand& stand, const LightFrustum& frustum);
-    void addView(const Step& step, const Stand& stand, const MapPlace& place, const View& fitted);
+    void fitLight(const Results& from, std::uint32_t index);
+    [[nodiscard]] static Outcome prospect(const Results& from, std::uint32_t index);
+    Outcome fitStands(const Results& from, std::uint32_t index);
+    Outcome fitFrustum(const Results& from, const Stand& stand, const LightFrustum& frustum);
+    Outcome fitWide(const Results& from, const Stand& stand, const LightFrustum& frustum);
+    void addView(const Results& from, const Stand& stand, const MapPlace& place, const View& fitted);
     // views_of_ids.cpp
-    Outcome handOutIds(const Step& step, std::uint32_t index);
+    Outcome handOutIds(const Results& from, std::uint32_t index);
     [[nodiscard]] std::uint64_t idsKey(const Plan& plan, const View& view) const;
     // views_of_volumes.cpp
-    void listVolumes(const Step& step, std::uint32_t index);
-    Outcome listClosed(const Step& step, std::uint32_t index);
+    void listVolumes(const Results& from, std::uint32_t index);
+    Outcome listClosed(const Results& from, std::uint32_t index);
 
     std::vector<ViewMap> maps_;
     // Scratch.

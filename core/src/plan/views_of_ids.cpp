@@ -7,13 +7,14 @@
 
 namespace gnomon {
 
-/// Of a sun that moves in steps in the order from where it stands, so that ids last as its maps do.
-Outcome Views::handOutIds(const Step& step, std::uint32_t index)
+/// Ids are given in the order in which the light sees objects. A sun that moves in steps keeps them with its maps: the
+/// order is from its earlier position.
+Outcome Views::handOutIds(const Results& from, std::uint32_t index)
 {
-    Plan& plan = step.plan;
+    Plan& plan = from.plan;
     LightPlan& planned = plan.lights[index];
-    const ResolvedOptions& options = step.setupOf(index).recipe.resolved;
-    const ObjectSet& objects = *step.sights.frame().objects;
+    const ResolvedOptions& options = from.setupOf(index).recipe.resolved;
+    const ObjectSet& objects = *from.sights.frame().objects;
     if (objects.size() > kMostIdObjects) {
         static_assert(kMostIdObjects == 1048575);
         return {OutcomeKind::refused, "ids tell at most 1048575 objects apart"};
@@ -29,7 +30,7 @@ Outcome Views::handOutIds(const Step& step, std::uint32_t index)
             }
         }
     }
-    Light light = step.sights.frame().lights[index];
+    Light light = from.sights.frame().lights[index];
     if (planned.steps.stepping) {
         light.direction_ws = planned.steps.earlier_ws;
     }

@@ -16,16 +16,16 @@ constexpr Outcome kOpenCaster{
 
 } // namespace
 
-void Views::listVolumes(const Step& step, std::uint32_t index)
+void Views::listVolumes(const Results& from, std::uint32_t index)
 {
-    std::vector<std::uint32_t>& casters = step.plan.casters;
-    LightPlan& planned = step.plan.lights[index];
+    std::vector<std::uint32_t>& casters = from.plan.casters;
+    LightPlan& planned = from.plan.lights[index];
     planned.first_volume = static_cast<std::uint32_t>(casters.size());
     if (planned.outcome.kind == OutcomeKind::ok) {
-        planned.outcome = prospect(step, index);
+        planned.outcome = prospect(from, index);
     }
     if (planned.outcome.kind == OutcomeKind::ok) {
-        planned.outcome = listClosed(step, index);
+        planned.outcome = listClosed(from, index);
     }
     if (!planned.outcome.hasMap()) {
         casters.resize(planned.first_volume);
@@ -33,15 +33,15 @@ void Views::listVolumes(const Step& step, std::uint32_t index)
     planned.volume_count = static_cast<std::uint32_t>(casters.size()) - planned.first_volume;
 }
 
-Outcome Views::listClosed(const Step& step, std::uint32_t index)
+Outcome Views::listClosed(const Results& from, std::uint32_t index)
 {
-    std::vector<std::uint32_t>& casters = step.plan.casters;
-    LightPlan& planned = step.plan.lights[index];
-    const Setup& setup = step.setupOf(index);
-    const Frame& frame = step.sights.frame();
+    std::vector<std::uint32_t>& casters = from.plan.casters;
+    LightPlan& planned = from.plan.lights[index];
+    const Setup& setup = from.setupOf(index);
+    const Frame& frame = from.sights.frame();
     const Light& light = frame.lights[index];
     const Slice all = wholeSlice(light);
-    const std::span<const std::uint32_t> receivers = step.sights.receiversOf(index);
+    const std::span<const std::uint32_t> receivers = from.sights.receiversOf(index);
     const Outcome found =
         planner_.listCasters({frame, setup.recipe, setup.camera, receivers, receivers, light, all}, casters);
     if (found.kind != OutcomeKind::ok) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What shaders/include/gnomon/visibility.glsl reads, filled from a frame and its plan: everything relative to the eye,
+// The buffers that shaders/include/gnomon/visibility.glsl reads, filled from a plan: everything relative to the eye,
 // in double precision until the last moment. The mask pass is filled by the same functions.
 //
 // A pass that shades lights of one of the planner's options binds that one's constants and maps, and all lights and

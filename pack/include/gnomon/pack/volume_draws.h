@@ -33,7 +33,8 @@ struct VolumeDraw {
     glm::vec4 place{0.0F};   // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position
 };
 
-/// Of the lights that have volumes, in their order. Keeps what `out` has allocated.
+/// Lists the lights that have volumes, in their order. Keeps what `out` has allocated. Throws Error where
+/// Plan::made_for has other lights.
 GNOMON_API void listVolumeDraws(const Plan& plan, glm::uvec2 size_px, std::vector<VolumeDraw>& out);
 
 } // namespace gnomon::pack
