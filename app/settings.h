@@ -5,7 +5,7 @@
 
 #include "host/frame_renderer.h"
 #include "scene/casting.h"
-#include "scene/load.h"
+#include "scene/gltf.h"
 #include "truth/visibility.h"
 
 #include <gnomon/option_table.h>

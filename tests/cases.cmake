@@ -35,8 +35,8 @@ function(gnomon_cases name)
         set(arg_COST 1)
     endif()
     target_link_libraries(test_${name} PRIVATE gnomon_case_costs)
-    # Sanitizers double what compiling takes, and optimising does again. These four have arithmetic by the million.
-    if(GNOMON_SANITIZE AND NOT name MATCHES "^(core|shaders|scene|truth)$")
+    # Sanitizers double what compiling takes, and optimising does again. These five have arithmetic by the million.
+    if(GNOMON_SANITIZE AND NOT name MATCHES "^(core|shaders|scene|worlds|truth)$")
         target_compile_options(test_${name} PRIVATE -O0)
     endif()
     set(without)

@@ -37,6 +37,8 @@ FOLDERS = [
     ("image/", [".", "core/include", "image/src"]),
     ("scene/src/", [".", "core/include", "scene/src"]),
     ("scene/", [".", "core/include"]),
+    ("worlds/src/", [".", "core/include", "worlds/src"]),
+    ("worlds/", [".", "core/include"]),
     ("truth/", [".", "core/include", "truth/src"]),
     ("host/window/src/", [*PUBLIC, "host/src", "host/window/src"]),
     ("host/src/", [*PUBLIC, "host/src"]),

@@ -23,12 +23,12 @@ PROJECT_KINDS = [
     (r"^pack/include/", "pack-public"),
     (r"^vulkan/include/", "vulkan-public"),
     (r"^(core|pack|vulkan)/", "private"),
-    (r"^(files|scene|image|host|truth|lab)/src/", "private"),
+    (r"^(files|scene|worlds|image|host|truth|lab)/src/", "private"),
     (r"^lab/metrics", "metrics"),
     (r"^lab/score/(?!src/)", "score"),
     (r"^lab/score/", "private"),
     (r"^host/shaders/.*\.h$", "host-shared"),
-    (r"^(files|scene|image|host|truth|lab|app)/", r"\1"),
+    (r"^(files|scene|worlds|image|host|truth|lab|app)/", r"\1"),
 ]
 # What any other header is, by its name.
 FOREIGN_KINDS = [
@@ -74,6 +74,7 @@ RULES = [
     ("image/", STD | {"core-geometry", "files", "png", "exr"}, "images know files and errors, nothing else"),
     ("scene/", STD | {"glm", "core-geometry", "files", "png", "jpeg", "webp", "draco", "meshopt", "json", "xxhash"},
      "a scene knows core's geometry.h, world_range.h and error.h only"),
+    ("worlds/", STD | {"glm", "core-geometry", "scene"}, "worlds are made of a scene's parts"),
     ("truth/", STD | {"glm", "core-geometry", "files", "scene", "image", "embree"}, "the judge shares no shadow code with the judged"),
     ("host/shaders/", {"shared", "shader-lib"}, "the host's shaders include the library's, as an engine would"),
     ("host/", STD | PUBLIC | {"glm", "vulkan-api", "files", "scene", "image", "shared", "host-shared", "spirv"},
@@ -84,8 +85,8 @@ RULES = [
     ("lab/score/", {"std", "glm", "core-geometry", "core-public", "scene", "image", "truth", "metrics"},
      "scores are had without our host, by whoever has plain images"),
     ("lab/", ABOVE | {"gd"}, "the lab knows public headers"),
-    ("app/", ABOVE | {"app", "cli", "text", "shared"}, "the program knows public headers, and widgets in app/src/view alone"),
-    ("app/src/view/", ABOVE | {"app", "imgui"}, "the window's panels are of Dear ImGui"),
+    ("app/", ABOVE | {"app", "worlds", "cli", "text", "shared"}, "the program knows public headers, and widgets in app/src/view alone"),
+    ("app/src/view/", ABOVE | {"app", "worlds", "imgui"}, "the window's panels are of Dear ImGui"),
     ("examples/", STD | PUBLIC | {"glm", "vulkan-api", "spirv", "shared", "shader-lib"},
      "an example is an engine: it has the library's public headers and nothing else of ours"),
 ]

@@ -31,7 +31,7 @@ TURN = "it is its turn"
 BUILT = "ctest --test-dir build --output-on-failure --no-tests=error -j $JOBS -L "
 
 
-LIBRARIES = ("core/", "pack/", "vulkan/", "files/", "image/", "scene/", "truth/", "host/", "lab/", "app/")
+LIBRARIES = ("core/", "pack/", "vulkan/", "files/", "image/", "scene/", "worlds/", "truth/", "host/", "lab/", "app/")
 
 
 class Item(NamedTuple):

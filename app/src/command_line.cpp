@@ -8,6 +8,7 @@
 #include "list.h"
 #include "technique_file.h"
 #include "technique_text.h"
+#include "worlds/worlds.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -127,9 +128,8 @@ bool isStrayFile(std::string_view word, const Subcommand& subcommand)
     if (subcommand.bit == kGpus) {
         return false; // it takes no words, which is said of any
     }
-    const auto worlds = scene::worlds();
     return !word.starts_with("-") && !hasExtension(word, ".gltf") && !hasExtension(word, ".glb") &&
-           std::none_of(worlds.begin(), worlds.end(), [&](const scene::World& world) { return world.name == word; });
+           worlds::find(word) == nullptr;
 }
 
 bool isJsonFile(std::string_view word)

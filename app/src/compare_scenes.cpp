@@ -8,8 +8,8 @@
 #include "findings.h"
 #include "lab/report.h"
 #include "report_html.h"
-#include "scene/load.h"
 #include "streams.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/error.h>
 
@@ -169,7 +169,7 @@ Json compareScenes(const Settings& settings)
         throw UsageError("--sweep is of one scene; there are several");
     }
     for (const std::string& scene : settings.scenes) { // the last one's name is wrong as often as the first one's
-        scene::requireThere(scene);
+        worlds::requireThere(scene);
     }
     const std::vector<std::string> labels = labelsOf(settings.scenes);
     std::unique_ptr<ReportFolder> folder;

@@ -12,7 +12,7 @@
 #include "subcommands.h"
 #include "technique_text.h"
 
-#include "scene/load.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/choices.h>
 
@@ -114,7 +114,7 @@ void addPresets(Answer& answer)
 
 void addScenes(Answer& answer)
 {
-    for (const scene::World& world : scene::worlds()) {
+    for (const worlds::World& world : worlds::all()) {
         answer.add(world.name, world.summary);
     }
     answer.completion.files = "gltf glb";

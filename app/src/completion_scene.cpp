@@ -4,7 +4,8 @@
 #include "claims/claim.h"
 #include "files/files.h"
 
-#include "scene/load.h"
+#include "scene/gltf.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/error.h>
 
@@ -19,8 +20,7 @@ constexpr std::uint64_t kMostBytes = 32U << 20U;
 std::string sceneOf(std::span<const std::string> words)
 {
     for (const std::string& word : words.first(words.empty() ? 0 : words.size() - 1)) {
-        const bool is_world =
-            std::ranges::any_of(scene::worlds(), [&word](const scene::World& world) { return world.name == word; });
+        const bool is_world = worlds::find(word) != nullptr;
         if (is_world || hasExtension(word, ".gltf") || hasExtension(word, ".glb")) {
             return word;
         }
@@ -47,7 +47,7 @@ std::vector<std::string> namesInScene(std::string_view key, std::span<const std:
     limits.max_total_bytes = kMostBytes;
     std::vector<std::string> names;
     try {
-        const scene::Scene scene = scene::load(sceneOf(words), 1, limits);
+        const scene::Scene scene = worlds::load(sceneOf(words), 1, limits);
         if (key == "camera") {
             addNames(scene.views, names);
             addNames(scene.cameras, names);

@@ -2,6 +2,8 @@
 // Help, made from the setting table. A screen is 40 lines of 100 columns; a test holds it to that.
 #include "app/command_line.h"
 
+#include "worlds/worlds.h"
+
 #include <fmt/format.h>
 
 namespace gnomon::app {
@@ -22,7 +24,7 @@ std::string programHelp()
         text += line(std::string(subcommand.name), std::string(subcommand.summary));
     }
     std::vector<std::string_view> worlds;
-    for (const scene::World& world : scene::worlds()) {
+    for (const worlds::World& world : worlds::all()) {
         worlds.push_back(world.name);
     }
     text += fmt::format("\nSCENE is a .gltf or .glb file or a built-in world:\n{}; without one it is rts.\n",

@@ -10,6 +10,7 @@
 #include "result_json.h"
 #include "streams.h"
 #include "subcommands.h"
+#include "worlds/worlds.h"
 #include "wrap_text.h"
 
 #include <gnomon/choice_rules.h>
@@ -86,7 +87,7 @@ std::string claimsListText()
 std::string worldsText()
 {
     std::string text = "Built-in worlds, in the place of a scene's file:\n";
-    for (const scene::World& world : scene::worlds()) {
+    for (const worlds::World& world : worlds::all()) {
         text += entryText(world.name, world.summary, 12);
     }
     return text;
@@ -137,7 +138,7 @@ std::string overviewText()
                            0);
     text += entryText("gnomon list", joined(namesIn(kSections), "|"), 14);
     text += namesLine("presets", namesIn(presets()));
-    text += namesLine("worlds", namesIn(scene::worlds()));
+    text += namesLine("worlds", namesIn(worlds::all()));
     text += namesLine("subcommands", namesIn(subcommands()));
     return text + "`gnomon SUBCOMMAND --help` has a subcommand's options; --json has all of this for scripts.\n";
 }
@@ -186,7 +187,7 @@ std::string topicText(std::string_view name)
             texts.push_back(presetText(preset));
         }
     }
-    for (const scene::World& world : scene::worlds()) {
+    for (const worlds::World& world : worlds::all()) {
         if (world.name == name) {
             texts.push_back(worldText(world));
         }
@@ -220,7 +221,7 @@ std::vector<ListedName> listedNames()
     for (const Preset& preset : presets()) {
         add(preset.name, preset.summary);
     }
-    for (const scene::World& world : scene::worlds()) {
+    for (const worlds::World& world : worlds::all()) {
         add(world.name, world.summary);
     }
     for (const ClaimDocument& document : claimDocuments()) {

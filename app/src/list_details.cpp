@@ -278,7 +278,7 @@ std::string presetText(const Preset& preset)
            fmt::format("{}\n", preset.json);
 }
 
-std::string worldText(const scene::World& world)
+std::string worldText(const worlds::World& world)
 {
     const scene::Scene scene = world.make(1);
     std::vector<std::string_view> cameras;

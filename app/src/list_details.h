@@ -6,7 +6,7 @@
 #include "app/settings.h"
 #include "claims/claim.h"
 
-#include "scene/load.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/choices.h>
 
@@ -27,7 +27,7 @@ namespace gnomon::app {
 [[nodiscard]] std::string settingText(const Setting& setting);
 [[nodiscard]] std::string presetText(const Preset& preset);
 /// Makes the world, to name its views and lights.
-[[nodiscard]] std::string worldText(const scene::World& world);
+[[nodiscard]] std::string worldText(const worlds::World& world);
 [[nodiscard]] std::string claimText(const Claim& claim);
 
 /// A setting in a line or two, as lists of them have it.

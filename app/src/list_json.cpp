@@ -6,6 +6,7 @@
 #include "doc_pages.h"
 #include "list_details.h"
 #include "list_rules.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/choices.h>
 
@@ -94,7 +95,7 @@ Json presetsNamed(std::string_view name)
 Json worldsNamed(std::string_view name)
 {
     Json rows = Json::array();
-    for (const scene::World& world : scene::worlds()) {
+    for (const worlds::World& world : worlds::all()) {
         if (name.empty() || world.name == name) {
             rows.push_back({{"name", world.name}, {"summary", world.summary}});
         }

@@ -7,7 +7,7 @@
 #include "subcommands.h"
 #include "wrap_text.h"
 
-#include "scene/load.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/choices.h>
 
@@ -155,7 +155,7 @@ std::string presetsAndWorlds()
         text += entry(preset.name, preset.summary);
     }
     text += heading("WORLDS") + paragraph("Built-in scenes, in the place of a file:");
-    for (const scene::World& world : scene::worlds()) {
+    for (const worlds::World& world : worlds::all()) {
         text += entry(world.name, world.summary);
     }
     return text;

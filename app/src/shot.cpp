@@ -11,6 +11,7 @@
 #include "shot_volumes.h"
 
 #include "scene/range.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/error.h>
 
@@ -262,9 +263,7 @@ namespace {
 
 bool isFile(const Settings& settings)
 {
-    const auto worlds = scene::worlds();
-    return std::none_of(worlds.begin(), worlds.end(),
-                        [&](const scene::World& world) { return world.name == settings.scene; });
+    return worlds::find(settings.scene) == nullptr;
 }
 
 void turnFile(Shot& shot, const Settings& settings)
@@ -318,7 +317,7 @@ Shot makeShot(const Settings& settings)
 {
     Shot shot;
     shot.path = openPath(settings);
-    shot.scene = scene::load(settings.scene, settings.seed, settings.limits);
+    shot.scene = worlds::load(settings.scene, settings.seed, settings.limits);
     shot.notices = shot.scene.notices;
     turnFile(shot, settings);
     if (settings.material_override == "diffuse") {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whatever stands where a glTF file has a stream of Draco or meshopt: reading it ends in a scene or in an Error. The
 // first bytes choose what the file around the stream says of it; the rest is the stream.
-#include "scene/load.h"
+#include "scene/gltf.h"
 #include "scene/state.h"
 
 #include <gnomon/error.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whatever the bytes are, reading them ends in a scene that can be evaluated or in an Error; anything else, any other
 // exception among it, is a crash. Run it on a copy of a corpus, to which it adds what it finds.
-#include "scene/load.h"
+#include "scene/gltf.h"
 #include "scene/state.h"
 
 #include <gnomon/error.h>

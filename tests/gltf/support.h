@@ -2,7 +2,7 @@
 // Makes small glTF files in memory and reads them.
 #pragma once
 
-#include "scene/load.h"
+#include "scene/gltf.h"
 #include "scene/state.h"
 
 #include <gnomon/error.h>

@@ -3,8 +3,8 @@
 // mask.
 #include "host/frame_renderer.h"
 #include "scene/state.h"
-#include "scene/worlds.h"
 #include "small_scene.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/error.h>
 
@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
 // covers the first texel of the maps.
 TEST(ForwardOfRing, IsAsDeferredWhereACascadeHasNoMap)
 {
-    const scene::Scene ring = scene::makeRing(1);
+    const scene::Scene ring = worlds::load("ring", 1);
     const scene::State state = scene::evaluate(ring, 0.0);
     Gpu gpu({.gpu = "software", .validate = true});
     const SceneOnGpu on_gpu(gpu, ring, state);
@@ -242,7 +242,7 @@ TEST_F(Forward, IsRefusedToWhatWorksOnTheMask)
 TEST(TonedAtOnce, IsThePictureThatThePassWouldMake)
 {
     Gpu gpu({.gpu = "software", .validate = true});
-    const scene::Scene scene = scene::makePlanes(1);
+    const scene::Scene scene = worlds::load("planes", 1);
     const scene::State state = scene::evaluate(scene, 0.0);
     const SceneOnGpu on_gpu(gpu, scene, state);
     for (const Shading shading : {Shading::deferred, Shading::forward}) {

@@ -4,7 +4,8 @@
 // distance does so as told.
 #include "host/frame_renderer.h"
 #include "scene/state.h"
-#include "scene/worlds.h"
+#include "worlds/planes.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/plan_views.h>
 
@@ -19,7 +20,7 @@
 namespace gnomon::host::test {
 namespace {
 
-using scene::PlanesWorld;
+using worlds::PlanesWorld;
 
 // Does the box stop the segment from `p` to the light (or the whole ray towards a sun)?
 bool shadowedExactly(const Light& light, const glm::dvec3& p)
@@ -196,7 +197,7 @@ class PlanesEdge : public testing::TestWithParam<EdgeCase> {};
 
 TEST_P(PlanesEdge, LiesWithinOneTexelOfWhereGeometryPutsIt)
 {
-    scene::Scene scene = scene::makePlanes(1);
+    scene::Scene scene = worlds::load("planes", 1);
     const bool paraboloid = GetParam().technique.partition == Partition::paraboloid;
     if (paraboloid) {
         divideTriangles(scene, 4); // a straight edge of 2 m would be seven texels off
@@ -287,7 +288,7 @@ TEST(EdgesOfAParaboloid, AreOffWhereTrianglesAreLarge)
     const Eye eye{.position_ws = {1.0, 14.0, 9.0}, .target_ws = {0.8, 0.0, 0.0}, .fov_y_rad = 0.7};
     std::array<int, 2> wrong{};
     for (const int times : {0, 4}) {
-        scene::Scene scene = scene::makePlanes(1);
+        scene::Scene scene = worlds::load("planes", 1);
         divideTriangles(scene, times);
         const scene::State state = scene::evaluate(scene, 0.0);
         std::vector<ShadedLight> lights = lightsOf(scene, state);
@@ -311,7 +312,7 @@ TEST(EdgesOfAParaboloid, AreOffWhereTrianglesAreLarge)
 // Such a map's range of depth is that of a plane across its axis: next to nothing, beside which all rounding is large.
 TEST(FlatFloor, AloneInAFaceOfALampsCubeIsLit)
 {
-    const scene::Scene scene = scene::makePlanes(1);
+    const scene::Scene scene = worlds::load("planes", 1);
     const scene::State state = scene::evaluate(scene, 0.0);
     std::vector<ShadedLight> lights = lightsOf(scene, state);
     lights.resize(1);
@@ -335,7 +336,7 @@ TEST(FlatFloor, AloneInAFaceOfALampsCubeIsLit)
 // In the middle of the box's shadow, as the eye draws back: dark, then (d - begin) / (end - begin), then lit.
 TEST(Fade, IsLinearInTheDistanceFromTheEye)
 {
-    const scene::Scene scene = scene::makePlanes(1);
+    const scene::Scene scene = worlds::load("planes", 1);
     const scene::State state = scene::evaluate(scene, 0.0);
     std::vector<ShadedLight> lights = lightsOf(scene, state);
     lights.resize(1);

@@ -2,7 +2,7 @@
 // Maps read back as plain numbers, whatever they are stored in.
 #include "host/frame_renderer.h"
 #include "scene/state.h"
-#include "scene/worlds.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/choices.h>
 #include <gnomon/error.h>
@@ -21,7 +21,7 @@ namespace {
 /// One caster over a ground: everything that a map needs, and little to compile.
 ImageF mapIn(Gpu& gpu, Filter filter, MapFormat format)
 {
-    static const scene::Scene scene = scene::makePlanes(1);
+    static const scene::Scene scene = worlds::load("planes", 1);
     static const scene::State state = scene::evaluate(scene, 0.0);
     RenderOptions options;
     options.width = 16;

@@ -3,8 +3,8 @@
 #include "allocation_count.h"
 #include "small_scene.h"
 
-#include "scene/load.h"
 #include "scene/state.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/error.h>
 
@@ -350,7 +350,7 @@ TEST(Renderer, RefusesSizesThatNoDeviceHas)
 
 TEST(Renderer, DrawsABoxAndItsShadowOnPlanes)
 {
-    scene::Scene scene = scene::load("planes", 1);
+    scene::Scene scene = worlds::load("planes", 1);
     const scene::NamedView view = scene.views.front();
     Stage stage(std::move(scene));
     stage.eye.position_ws = view.eye;

@@ -4,7 +4,6 @@
 #define GNOMON_REAL double
 #include "host/frame_renderer.h"
 #include "scene/state.h"
-#include "scene/worlds.h"
 #include "small_scene.h"
 
 #include <glm/gtc/matrix_access.hpp>

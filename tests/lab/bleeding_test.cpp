@@ -3,7 +3,8 @@
 // one that lets part of the light through. What layers of depth, warps and four moments save of it.
 #include "stage.h"
 
-#include "scene/worlds.h"
+#include "worlds/canopies.h"
+#include "worlds/worlds.h"
 
 #include <glm/geometric.hpp>
 
@@ -20,7 +21,7 @@
 namespace gnomon::lab::test {
 namespace {
 
-using World = scene::CanopiesWorld;
+using World = worlds::CanopiesWorld;
 
 constexpr std::uint32_t kVsmSide = 512;
 // As many bytes to a texel: two floats, or four of 16 bits.
@@ -70,7 +71,7 @@ host::RenderOptions unblurred(host::RenderOptions options)
 
 TEST(Bleeding, IsNothingWhereEachCasterHasALayerOfItsOwn)
 {
-    Stage stage(scene::makeCanopies(1), "side", {240, 160});
+    Stage stage(worlds::load("canopies", 1), "side", {240, 160});
     const View view = stage.mapView(vsm());
     const truth::Traced truth = stage.areaTruth(16);
     const double of_vsm = bleedingOf(stage.score(unblurred(vsm()), truth));
@@ -116,7 +117,7 @@ void expectShares(Stage& stage, const truth::Traced& truth, const std::string& n
 
 TEST(Bleeding, IsLessOnCanopies)
 {
-    Stage stage(scene::makeCanopies(1), "side", {240, 160});
+    Stage stage(worlds::load("canopies", 1), "side", {240, 160});
     const float split = splitAt(stage.mapView(vsm()), kBelowAwning);
     const Shares most;
     expectShares(stage, stage.areaTruth(16), "canopies, area", split, most);
@@ -124,7 +125,7 @@ TEST(Bleeding, IsLessOnCanopies)
 
 TEST(Bleeding, IsLessOnTheStrategyWorld)
 {
-    Stage stage(scene::makeRts(1), "camp", {240, 135});
+    Stage stage(worlds::load("rts", 1), "camp", {240, 135});
     // Measured: 28 %, and 35, 35 and 21 % for the others; a picture this small has few pixels to tell by.
     const Shares most{.lvsm = 0.6, .rivals = {0.7, 0.7, 0.6}};
     expectShares(stage, stage.hardTruth(), "rts, camp, hard", 0.6F, most, 2e-6);
@@ -148,7 +149,7 @@ void expectGapsFound(Stage& stage, const truth::Traced& truth, const std::string
 TEST(Bleeding, IsLessWithLayersByGapsOnCanopies)
 {
     for (const char* camera : {"side", "top"}) {
-        Stage stage(scene::makeCanopies(1), camera, {240, 160});
+        Stage stage(worlds::load("canopies", 1), camera, {240, 160});
         // By Lloyd's rule two layers leave 27 to 31 %.
         expectGapsFound(stage, stage.hardTruth(), std::string("canopies, ") + camera, 0.03);
     }
@@ -156,7 +157,7 @@ TEST(Bleeding, IsLessWithLayersByGapsOnCanopies)
 
 TEST(Bleeding, IsLessWithLayersByGapsOnTheStrategyWorld)
 {
-    Stage stage(scene::makeRts(1), "camp", {240, 135});
+    Stage stage(worlds::load("rts", 1), "camp", {240, 135});
     // No split of this map saves enough, so two layers are of one width.
     expectGapsFound(stage, stage.hardTruth(), "rts, camp", 0.6);
 }
@@ -183,10 +184,10 @@ TEST(Bleeding, IsNeverMoreByGapsThanWithLayersOfOneWidth)
             EXPECT_LE(by_gaps, of_uniform) << camera << ", " << layers << " layers";
         }
     };
-    expectNoMore(scene::makeRts(1), "unit");
-    expectNoMore(scene::makeSundial(1), "meadow");
-    expectNoMore(scene::makeSundial(1), "face");
-    expectNoMore(scene::makeCanopies(1), "side");
+    expectNoMore(worlds::load("rts", 1), "unit");
+    expectNoMore(worlds::load("sundial", 1), "meadow");
+    expectNoMore(worlds::load("sundial", 1), "face");
+    expectNoMore(worlds::load("canopies", 1), "side");
 }
 
 } // namespace

@@ -2,7 +2,8 @@
 // Which points of the ground of `canopies` are in full shadow and which see all of the sun, against geometry.
 #include "stage.h"
 
-#include "scene/worlds.h"
+#include "worlds/canopies.h"
+#include "worlds/worlds.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@
 namespace gnomon::lab::test {
 namespace {
 
-using World = scene::CanopiesWorld;
+using World = worlds::CanopiesWorld;
 
 std::vector<World::Box> roofs()
 {
@@ -66,7 +67,7 @@ TEST_P(Canopies, TheTruthIsWhatGeometrySays)
 {
     for (const char* view : {"side", "top"}) {
         SCOPED_TRACE(view);
-        Stage stage(scene::makeCanopies(1), view, {240, 160});
+        Stage stage(worlds::load("canopies", 1), view, {240, 160});
         const truth::Traced traced = GetParam() == truth::Kind::hard ? stage.hardTruth() : stage.areaTruth(64);
         const Tally tally = tallyGround(stage.subject(), traced);
         EXPECT_EQ(tally.wrong, 0);

@@ -3,7 +3,7 @@
 
 #include "stage.h"
 
-#include "scene/worlds.h"
+#include "worlds/worlds.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -24,7 +24,7 @@ constexpr std::uint32_t kSpot = 1;
 /// One row of pixels, each said by hand: what both sides see there, at a place with a normal.
 class ByHand {
 public:
-    ByHand() : scene(scene::makePlanes(1)), state(scene::evaluate(scene, 0.0))
+    ByHand() : scene(worlds::load("planes", 1)), state(scene::evaluate(scene, 0.0))
     {
         subject.scene = &scene;
         subject.state = &state;
@@ -181,7 +181,7 @@ TEST(TruthNoise, IsTheRootOfTheMeanSquareOverCountedPixels)
 
 TEST(TruthView, SeesTheSamePointsAndObjectsAsThePicture)
 {
-    Stage stage(scene::makePlanes(1), "side", kSize_px);
+    Stage stage(worlds::load("planes", 1), "side", kSize_px);
     const truth::Surfaces& surfaces = stage.hardTruth().surfaces;
     const host::Picture picture = stage.geometry();
     const truth::View view = truthView(stage.subject(), kSize_px);
@@ -211,7 +211,7 @@ TEST(TruthView, SeesTheSamePointsAndObjectsAsThePicture)
 TEST(CountPixels, OfAWholePictureAddUp)
 {
     for (const std::uint32_t light : {kSun, kSpot}) {
-        Stage stage(scene::makePlanes(1), "side", kSize_px, light);
+        Stage stage(worlds::load("planes", 1), "side", kSize_px, light);
         const CountedPixels pixels = countPixels(stage.subject(), stage.hardTruth().surfaces, stage.geometry());
         EXPECT_EQ(pixels.counts.counted + pixels.counts.leftOut(), kSize_px.x * kSize_px.y);
         EXPECT_EQ(pixels.counts.counted, std::count(pixels.counted.values.begin(), pixels.counted.values.end(), 1));
@@ -226,7 +226,7 @@ TEST(ScoreTechnique, HardErrsAtEdgesOnly)
 {
     for (const std::uint32_t light : {kSun, kSpot}) {
         SCOPED_TRACE(light == kSun ? "sun" : "spot");
-        Stage stage(scene::makePlanes(1), "side", kSize_px, light);
+        Stage stage(worlds::load("planes", 1), "side", kSize_px, light);
         const Score score = stage.score(hardOptions(1024), true);
         ASSERT_TRUE(score.error && score.classification && score.ssim && score.flip);
         const ClassErrors& errors = score.classification->errors;
@@ -248,7 +248,7 @@ TEST(ScoreTechnique, HardErrsAtEdgesOnly)
 
 TEST(ScoreTechnique, DrawsAtTheTruthsSizeWhateverTheOptionsSay)
 {
-    Stage stage(scene::makePlanes(1), "top", kSize_px);
+    Stage stage(worlds::load("planes", 1), "top", kSize_px);
     host::RenderOptions options = hardOptions(512);
     const Score plain = stage.score(options);
     options.anti_aliasing = host::AntiAliasing::ssaa4;
@@ -263,7 +263,7 @@ TEST(ScoreTechnique, DrawsAtTheTruthsSizeWhateverTheOptionsSay)
 
 TEST(ScoreMask, OfTheTruthItselfIsPerfectAndOfItsNegativeIsNot)
 {
-    Stage stage(scene::makePlanes(1), "top", kSize_px);
+    Stage stage(worlds::load("planes", 1), "top", kSize_px);
     const host::Picture picture = stage.geometry();
     const ImageF& exact = stage.hardTruth().visibility.visibility;
     const Score perfect = scoreMask(stage.subject(), stage.hardTruth(), picture, exact);
@@ -287,7 +287,7 @@ TEST(ScoreMask, OfTheTruthItselfIsPerfectAndOfItsNegativeIsNot)
 
 TEST(ScoreMask, FromPlainImagesIsTheSame)
 {
-    Stage stage(scene::makePlanes(1), "side", kSize_px, kSpot);
+    Stage stage(worlds::load("planes", 1), "side", kSize_px, kSpot);
     const host::Picture picture = stage.geometry();
     ImageF mask(kSize_px.x, kSize_px.y, 1, 0.75F);
     const Subject& subject = stage.subject();
@@ -306,7 +306,7 @@ TEST(ScoreMask, FromPlainImagesIsTheSame)
 
 TEST(ScoreMask, OfNothingThatCountsHasNoNumbers)
 {
-    Stage stage(scene::makePlanes(1), "top", kSize_px);
+    Stage stage(worlds::load("planes", 1), "top", kSize_px);
     Subject away = stage.subject();
     away.lights[0].caster.direction_ws = {0.0, 1.0, 0.0}; // from below
     const Score score = scoreMask(away, stage.hardTruth(), stage.geometry(), stage.hardTruth().visibility.visibility);

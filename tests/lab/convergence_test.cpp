@@ -4,7 +4,7 @@
 // rmse falls by the square root of two: half a power of two for each doubling.
 #include "stage.h"
 
-#include "scene/worlds.h"
+#include "worlds/worlds.h"
 
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ void expectFall(const std::vector<double>& logs, double least_slope, double grea
 
 TEST(Convergence, OfHardOnPlanesUnderTheSun)
 {
-    Stage stage(scene::makePlanes(1), "side", {960, 540}, 0);
+    Stage stage(worlds::load("planes", 1), "side", {960, 540}, 0);
     // The world's own sun falls along an axis of the box, and whether texels' borders meet its edges is then luck.
     stage.turnLight({2.0, -4.0, 1.1});
     expectFall(errorsBySize(stage, "planes, sun from a corner"), -0.6, -0.4);
@@ -64,7 +64,7 @@ TEST(Convergence, OfHardOnPlanesUnderTheSun)
 
 TEST(Convergence, OfHardOnPlanesUnderTheSpot)
 {
-    Stage stage(scene::makePlanes(1), "side", {960, 540}, 1);
+    Stage stage(worlds::load("planes", 1), "side", {960, 540}, 1);
     expectFall(errorsBySize(stage, "planes, spot"), -0.6, -0.4);
 }
 
@@ -72,7 +72,7 @@ TEST(Convergence, OfHardOnTheStrategyWorld)
 {
     // Leaves, palings and ropes are narrower than a texel or a pixel for long, so there is not a band along an edge
     // yet, and the error falls more slowly.
-    Stage stage(scene::makeRts(1), "camp", {256, 144});
+    Stage stage(worlds::load("rts", 1), "camp", {256, 144});
     expectFall(errorsBySize(stage, "rts, camp"), -0.5, -0.25);
 }
 

@@ -4,7 +4,7 @@
 #include "host/frame_renderer.h"
 #include "lab/score/view_shares.h"
 #include "scene/state.h"
-#include "scene/worlds.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/options.h>
 
@@ -69,7 +69,7 @@ Seams seamsOf(const ImageF& mask, const ImageF& shares)
 /// The world `planes` on 64 tiles that join.
 scene::Scene planesOnTiles()
 {
-    scene::Scene scene = scene::makePlanes(1);
+    scene::Scene scene = worlds::load("planes", 1);
     constexpr float kTile_m = 5.0F;
     for (scene::Node& node : scene.nodes) {
         if (node.mesh == scene::kNone || scene.meshes[node.mesh].primitives[0].bounds.max.y > 0.0F) {
@@ -131,7 +131,7 @@ protected:
 
 TEST_P(MultiSeams, AreNotToBeSeen)
 {
-    const Seams seams = draw(scene::makePlanes(1), MultiDivide::space, 0.1);
+    const Seams seams = draw(worlds::load("planes", 1), MultiDivide::space, 0.1);
     ASSERT_GE(seams.views, 4U);
     ASSERT_GE(seams.pairs, 20U) << "no shadow's edge crosses a border of frustums";
     EXPECT_LE(seams.median_step, 1.0 / 255.0);

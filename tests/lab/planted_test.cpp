@@ -3,7 +3,7 @@
 #include "stage.h"
 
 #include "scene/state.h"
-#include "scene/worlds.h"
+#include "worlds/worlds.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -135,7 +135,7 @@ host::RenderOptions withBias(host::RenderOptions options, float constant_m)
 
 TEST(Planted, NoBiasAtAllIsAcne)
 {
-    Stage stage(scene::makePlanes(1), "side", {256, 144});
+    Stage stage(worlds::load("planes", 1), "side", {256, 144});
     const Score sound = stage.score(hardOptions(1024));
     const Score planted = stage.score(withBias(hardOptions(1024), 0.0F));
     expectPlanted(sound, planted, &ClassErrors::acne, 10.0, 0.1, 0.1);

@@ -3,7 +3,7 @@
 
 #include "stage.h"
 
-#include "scene/worlds.h"
+#include "worlds/worlds.h"
 
 #include <gtest/gtest.h>
 
@@ -110,7 +110,7 @@ TEST(FrameRatio, IsOfMedians)
 
 class TimeInTurn : public testing::Test {
 protected:
-    TimeInTurn() : stage(scene::makePlanes(1), "side", {64, 36})
+    TimeInTurn() : stage(worlds::load("planes", 1), "side", {64, 36})
     {
         contestants = {{"kept", hardOptions(128)}, {"anew", hardOptions(128)}, {"large", hardOptions(256)}};
         contestants[1].options.reuse_maps = false;

@@ -10,6 +10,7 @@
 #include "app/src/result_json.h"
 #include "image/image_io.h"
 #include "scene/hash.h"
+#include "worlds/worlds.h"
 
 #include <gtest/gtest.h>
 
@@ -96,7 +97,7 @@ TEST(ReadingMemory, ASceneIsWholeOrNotThere)
     writePng(folder.path() / "leaf.png", ramp<std::uint8_t>(4, 4, 4));
     folder.write("scene.gltf", sceneFile().text());
     sweepReading(
-        "reading a scene", [&] { return scene::load((folder.path() / "scene.gltf").string(), 1); },
+        "reading a scene", [&] { return worlds::load((folder.path() / "scene.gltf").string(), 1); },
         [](const scene::Scene& scene) {
             EXPECT_EQ(scene.skins.size(), 1U);
             EXPECT_EQ(scene.animations.at(0).channels.size(), 2U);

@@ -5,7 +5,7 @@
 #include "cache_key.h"
 #include "device.h"
 
-#include "scene/worlds.h"
+#include "worlds/worlds.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ struct Asked {
 Asked askedSample()
 {
     Asked asked;
-    asked.scene = scene::makePlanes(1);
+    asked.scene = worlds::load("planes", 1);
     asked.state = scene::evaluate(asked.scene, 0.0);
     asked.view.size_px = {4, 4};
     return asked;

@@ -2,7 +2,8 @@
 // Hard shadows against constructions in double precision, and area shadows against many hard ones.
 #include "support.h"
 
-#include "scene/worlds.h"
+#include "worlds/planes.h"
+#include "worlds/worlds.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@
 namespace gnomon::truth::test {
 namespace {
 
-using scene::PlanesWorld;
+using worlds::PlanesWorld;
 
 /// Takes the box of the world `planes` to [-1, 1]^3.
 glm::dvec3 toCube(const glm::dvec3& p)
@@ -31,7 +32,7 @@ View top(const glm::uvec2& size_px)
 /// Every pixel of the ground whose answer a tenth of a millimetre either way does not change.
 void expectBoxShadow(const Light& light)
 {
-    scene::Scene scene = scene::makePlanes(1);
+    scene::Scene scene = worlds::load("planes", 1);
     const Traced traced = trace(scene, top({320, 240}), light, hard());
     expectSound(traced);
     std::uint32_t ground = 0;
@@ -74,7 +75,7 @@ TEST(Planes, lamp_shadow_of_the_box_is_exact)
 
 TEST(Planes, near_distance_of_a_lamp_takes_casters_away)
 {
-    scene::Scene scene = scene::makePlanes(1);
+    scene::Scene scene = worlds::load("planes", 1);
     // Above the box: its top is 2 m away, its farthest corner 3.6 m, the ground 5 m.
     const glm::dvec3 above(-0.5, 5.0, 0.0);
     const auto darkest = [&](double near_m, double radius_m) {
@@ -128,7 +129,7 @@ TEST(NearDistance, of_a_spot_is_a_plane_and_of_a_point_light_a_sphere)
 
 TEST(Planes, camera_sees_what_a_ray_meets_first)
 {
-    scene::Scene scene = scene::makePlanes(1);
+    scene::Scene scene = worlds::load("planes", 1);
     const View view = lookAt({6.5, 5.0, 9.5}, {0.6, 1.0, 0.0}, 0.75, {160, 120});
     const Traced traced = trace(scene, view, sun({0.0, -1.0, 0.0}), hard());
     std::uint32_t on_box = 0;
@@ -159,7 +160,7 @@ TEST(Planes, camera_sees_what_a_ray_meets_first)
 
 TEST(Area, is_the_mean_of_many_hard_shadows)
 {
-    scene::Scene scene = scene::makePlanes(1);
+    scene::Scene scene = worlds::load("planes", 1);
     const double angle = 0.2;
     const glm::dvec3 to_sun = -glm::normalize(glm::dvec3(PlanesWorld::sun_direction));
     const View view = lookDown(1.3, 1.9, 1.6, {48, 32}); // below the box

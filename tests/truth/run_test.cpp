@@ -5,7 +5,7 @@
 #include "light_samples.h"
 #include "parallel.h"
 
-#include "scene/worlds.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/error.h>
 
@@ -28,7 +28,7 @@ const View kView = lookAt({6.5, 5.0, 9.5}, {0.6, 1.0, 0.0}, 0.75, {100, 70});
 
 TEST(Run, bits_do_not_depend_on_threads_and_do_on_the_seed)
 {
-    scene::Scene scene = scene::makePlanes(1);
+    scene::Scene scene = worlds::load("planes", 1);
     const Traced one = trace(scene, kView, kSun, area(64, 1));
     for (const std::uint32_t threads : {1U, 2U, 3U}) {
         const Traced other = trace(scene, kView, kSun, area(64, threads));
@@ -49,7 +49,7 @@ TEST(Run, bits_do_not_depend_on_threads_and_do_on_the_seed)
 
 TEST(Run, ends_when_cancelled)
 {
-    scene::Scene scene = scene::makePlanes(1);
+    scene::Scene scene = worlds::load("planes", 1);
     const Traced traced = trace(scene, kView, kSun, hard());
     const Tracer tracer(scene, traced.state);
     std::atomic<bool> cancel{true};
@@ -158,7 +158,7 @@ TEST(Building, tells_how_far_it_is_and_ends_when_cancelled)
 
 TEST(Options, samples_that_do_not_divide_into_sets_are_refused)
 {
-    scene::Scene scene = scene::makePlanes(1);
+    scene::Scene scene = worlds::load("planes", 1);
     const Traced traced = trace(scene, kView, kSun, hard());
     const Tracer tracer(scene, traced.state);
     for (const std::uint32_t samples : {0U, 1U, 3U, 5U, 255U, kMaxSamples + kSampleSets, 0xFFFFFFFCU}) {
@@ -175,7 +175,7 @@ TEST(Options, samples_that_do_not_divide_into_sets_are_refused)
 
 TEST(Run, progress_rises_to_one_on_the_calling_thread)
 {
-    scene::Scene scene = scene::makePlanes(1);
+    scene::Scene scene = worlds::load("planes", 1);
     const Traced traced = trace(scene, kView, kSun, hard());
     const Tracer tracer(scene, traced.state);
     std::vector<double> shares;

@@ -2,8 +2,7 @@
 // Input at the edge of sense, scenes far from the origin, and deformed ones.
 #include "support.h"
 
-#include "scene/load.h"
-#include "scene/worlds.h"
+#include "worlds/worlds.h"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
@@ -61,7 +60,7 @@ TEST(Degenerate, nothing_to_see)
 
 TEST(Degenerate, camera_and_light_inside_geometry_and_below_the_horizon)
 {
-    scene::Scene scene = scene::makePlanes(1);
+    scene::Scene scene = worlds::load("planes", 1);
     // In the box: its sides are seen through, and the ground below it is dark under a light outside it.
     const Traced inside = trace(scene, lookDown(-0.5, 2.5, 0.2, {8, 8}), sun({0.0, -1.0, 0.0}), area(16));
     expectSound(inside);
@@ -97,7 +96,7 @@ TEST(Degenerate, camera_and_light_inside_geometry_and_below_the_horizon)
 
 TEST(Degenerate, camera_without_a_direction_sees_nothing)
 {
-    scene::Scene scene = scene::makePlanes(1);
+    scene::Scene scene = worlds::load("planes", 1);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double value : {0.0, nan}) {
         const Traced traced =
@@ -111,7 +110,7 @@ TEST(FarAway, ten_kilometres_change_nothing)
 {
     const glm::dvec3 offset(10240.0, 1024.0, -10240.0);
     const auto at = [&](const glm::dvec3& by, const Options& options) {
-        scene::Scene scene = scene::makePlanes(1);
+        scene::Scene scene = worlds::load("planes", 1);
         for (scene::Node& node : scene.nodes) {
             node.transform.translation += glm::vec3(by);
         }
@@ -166,7 +165,7 @@ TEST_P(Skinned, figure_moves_and_its_lit_side_is_lit)
     if (file.empty()) {
         GTEST_SKIP() << "NO SCENES: set GNOMON_SHARED to the folder that has scenes/";
     }
-    scene::Scene scene = scene::load(file, 1);
+    scene::Scene scene = worlds::load(file, 1);
     const scene::State state = scene::evaluate(scene, 0.0);
     ASSERT_FALSE(state.deformed.empty());
     const glm::dvec3 centre(state.bounds_ws.centre());

@@ -6,6 +6,7 @@
 #include "app/preset.h"
 #include "sanitized.h"
 #include "view/camera_moves.h"
+#include "worlds/worlds.h"
 
 #include <glm/geometric.hpp>
 
@@ -120,7 +121,7 @@ TEST_F(ViewWindow, TakesEveryChoiceOrSaysWhyNot)
 TEST_F(ViewWindow, OpensEveryWorldAndDroppedFiles)
 {
     User user(*desktop_, kSmall);
-    for (const scene::World& world : scene::worlds()) {
+    for (const worlds::World& world : worlds::all()) {
         user.pick("world", world.name);
         EXPECT_EQ(user.viewer().settings().scene, world.name) << user.viewer().message().text;
         EXPECT_TRUE(user.rest());

@@ -3,6 +3,7 @@
 
 #include "app/preset.h"
 #include "shot_camera.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/choices.h>
 
@@ -161,11 +162,11 @@ void scenePanel(Viewer& viewer, PanelState& state)
         return;
     }
     std::vector<std::string> worlds;
-    for (const scene::World& world : scene::worlds()) {
+    for (const worlds::World& world : worlds::all()) {
         worlds.emplace_back(world.name);
     }
     const int world = widgets.pick("world", viewer.settings().scene, worlds, nullptr,
-                                   [](std::size_t i) { return std::string(scene::worlds()[i].summary); });
+                                   [](std::size_t i) { return std::string(worlds::all()[i].summary); });
     if (world >= 0) {
         viewer.open(worlds[static_cast<std::size_t>(world)]);
     }

@@ -2,7 +2,7 @@
 // What every part of the glTF reader shares: how a failure is said, and what the file has used of its limits.
 #pragma once
 
-#include "scene/load.h"
+#include "scene/gltf.h"
 
 #include <cstdint>
 #include <filesystem>

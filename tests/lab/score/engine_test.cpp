@@ -5,7 +5,7 @@
 #include "lab/score/traffic.h"
 
 #include "scene/state.h"
-#include "scene/worlds.h"
+#include "worlds/worlds.h"
 
 #include <gnomon/planner.h>
 
@@ -24,7 +24,7 @@ constexpr glm::uvec2 kSize_px{96, 64};
 /// A picture of an engine with ordinary depth: 0 at the near plane, 1 at the far one and where there is nothing.
 class Engine {
 public:
-    Engine() : scene(scene::makePlanes(1)), state(scene::evaluate(scene, 0.0))
+    Engine() : scene(worlds::load("planes", 1)), state(scene::evaluate(scene, 0.0))
     {
         glm::dmat4 clip_from_view = glm::perspectiveRH_ZO(0.9, 1.5, 0.1, 200.0);
         clip_from_view[1][1] *= -1.0;

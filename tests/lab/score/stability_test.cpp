@@ -7,7 +7,7 @@
 #include "lab/score/score.h"
 
 #include "scene/state.h"
-#include "scene/worlds.h"
+#include "worlds/worlds.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -251,7 +251,7 @@ TEST(Stability, NotANumberIsNotHidden)
 /// The world `planes` from a camera that moves to the right.
 class Walk {
 public:
-    Walk() : scene_(scene::makePlanes(1)), state_(scene::evaluate(scene_, 0.0)), tracer_(scene_, state_) {}
+    Walk() : scene_(worlds::load("planes", 1)), state_(scene::evaluate(scene_, 0.0)), tracer_(scene_, state_) {}
     struct Shot {
         Camera camera;
         truth::Surfaces surfaces;

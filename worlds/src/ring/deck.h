@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the world `ring` is built of: deck and hull in tiles, rooms on both sides of the promenade.
+#pragma once
+
+#include "palette.h"
+
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+
+namespace gnomon::worlds {
+
+enum class Room : std::uint8_t { bar, lounge, garden, market, berths, lab, stores, workshop, engine };
+
+/// Of a sector's side, -1 or 1 (of z).
+[[nodiscard]] Room roomOf(int sector, int side);
+/// Gardens and markets are open.
+[[nodiscard]] bool isWalled(Room room);
+
+/// Clip planes cut away the upper part of the room's front and what hangs there, as the game did where a wall stood
+/// between the camera and a room: the view `overview` looks into it.
+[[nodiscard]] bool isFrontCutAway(int sector, int side);
+
+struct RoomColours {
+    glm::vec4 floor;
+    glm::vec4 trim; // of the floor, towards the promenade
+    glm::vec4 wall;
+};
+[[nodiscard]] RoomColours coloursOf(Room room);
+
+/// Deck and hull cast nothing: what they enclose is convex, so they stand between no two points of it.
+void addDeck(Scene& scene, const RingPalette& palette, std::uint64_t seed);
+/// Walls with doors and windows, posts where they meet, and beams over the deck.
+void addRooms(Scene& scene, const RingPalette& palette);
+/// Portholes in the hull, signs over the promenade, lines of light in the deck.
+void addTrim(Scene& scene, const RingPalette& palette);
+/// Stars and a planet, beyond the hull.
+void addSpace(Scene& scene);
+
+} // namespace gnomon::worlds

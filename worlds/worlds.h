@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The built-in worlds by name, and scenes by name or file. Worlds whose numbers others need have a header of their own.
+#pragma once
+
+#include "scene/gltf.h"
+#include "scene/model.h"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace gnomon::worlds {
+
+/// A built-in world, finished (finishScene called).
+struct World {
+    std::string_view name;
+    std::string_view summary; // one line
+    scene::Scene (*make)(std::uint64_t seed);
+};
+/// All built-in worlds, in the order shown to people.
+[[nodiscard]] std::span<const World> all();
+/// The built-in world of that name; null where there is none.
+[[nodiscard]] const World* find(std::string_view name);
+
+/// Throws Error where load() would find neither a built-in world nor a file that may be glTF. Reads nothing.
+void requireThere(std::string_view name_or_file);
+
+/// `name_or_file`: a built-in world by name or a path. Throws Error when it is neither.
+[[nodiscard]] scene::Scene load(std::string_view name_or_file, std::uint64_t seed, const scene::Limits& limits = {});
+
+} // namespace gnomon::worlds
