@@ -394,7 +394,7 @@ struct MapPages {
 /// The frame that a plan was made for, as far as backends ask. A plan serves another eye close by, too: set `camera` in
 /// a copy of it, and its views to draw nothing more (View::redraw, presumes = makes).
 struct PlannedFrame {
-    Camera camera;
+    Camera camera;             // Frame::camera
     glm::uvec2 size_px{0};     // Frame::size_px
     std::vector<Light> lights; // as the host gave them
     Aabb scene_ws{};           // around all objects, ObjectSet::bounds()
@@ -405,7 +405,7 @@ struct PlannedFrame {
 /// What there is to draw in one frame, and what each light came to.
 struct Plan {
     std::uint64_t frame = 0; // Frame::index
-    PlannedFrame made_for;
+    PlannedFrame made_for;   // of the frame, what backends ask for
     /// Differs between any two planners of a process. Maps of two planners may lie at the same place under different
     /// names, so a backend that is handed another planner's plan forgets what it noted of the last one's maps.
     std::uint64_t planner = 0;
