@@ -151,6 +151,7 @@ const Plan& Planner::plan(const Frame& given)
     if (fault.kind == OutcomeKind::ok) {
         fault = checkRange(*frame.objects);
     }
+    s.sights.remember();
     s.spoilt = true;
     const bool again = s.told.holds(frame) && !frame.cut;
     s.makePlan(frame, fault);

@@ -27,7 +27,6 @@ void Sights::mend()
 
 void Sights::see(const Frame& frame, const Outcome& fault, const FramesBefore& before, Plan& plan)
 {
-    suns_before_ = suns_;
     begin(frame, plan);
     setNearDistances(fault);
     scene_.follow(*frame.objects);

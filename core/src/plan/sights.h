@@ -60,6 +60,8 @@ public:
     void passFrame() { ++converging_; }
     /// Nothing is known of the frame before: planner.reset().
     void forget() { scene_.forget(); }
+    /// Before each plan. Where that throws nothing has changed, and where the plan throws mend() goes back to here.
+    void remember() { suns_before_ = suns_; }
     /// A plan ended half way.
     void mend();
 
