@@ -88,7 +88,7 @@ class Gallery:
         texels = own["map"]["texels"]
         maps = f"{texels / 1024 / 1024:.2g} Mi texels" if texels else "no map"
         times = f"{ratio:.0f}" if ratio >= 10 else f"{ratio:.2g}"
-        return f"rmse {own['error']['rmse']:.3f}, {times} times the time of `hard`, {maps}"
+        return f"rmse {own['error']['rmse']:.3f}, {times} times `hard`'s time, {maps}"
 
     def draw(self, entry: dict) -> str:
         """Draws an entry and returns its part of the page."""
@@ -99,9 +99,8 @@ class Gallery:
         self.picture(f"{name}-fails", self.shown(entry["fails"]))
         page = about["page"].removeprefix("docs/")
         lines = [f"### `{entry['name']}`", "", f"{about['summary'][0].upper()}{about['summary'][1:]}. [More]({page})", "",
-                 "| it | the truth | where it fails |", "|---|---|---|",
-                 f"| ![{entry['name']}](gallery/{name}.jpg) | ![traced](gallery/truth-{entry['view']}.jpg) | ![{entry['name']} at its worst](gallery/{name}-fails.jpg) |",
-                 f"| {self.figures(entry)} | | {entry['fails']['words']} |", f"| {of(entry)} | | {of(entry['fails'])} |", ""]
+                 f"| ![{entry['name']}](gallery/{name}.jpg) | ![traced](gallery/truth-{entry['view']}.jpg) | ![{entry['name']} failing](gallery/{name}-fails.jpg) |",
+                 "|---|---|---|", f"| {self.figures(entry)}: {of(entry)} | truth | {entry['fails']['words']} {of(entry['fails'])} |", ""]
         return "\n".join(lines)
 
     def views_text(self) -> str:
@@ -137,7 +136,7 @@ class Gallery:
 
     def film_text(self, film: dict) -> str:
         """Its part of the page."""
-        lines = [f"### {film['words']}", "", f"![{film['words'].replace('`', '')}](films/{film['name']}.png)", "", "```"]
+        lines = [f"### {film['words']}", "", f"![{film['name']}](films/{film['name']}.png)", "", "```"]
         return "\n".join([*lines, *("build/gnomon " + shlex.join(words) + f" -o out/{film['name']}" for words in self.film_commands(film)), "```", ""])
 
 

@@ -58,7 +58,7 @@ class Gallery(unittest.TestCase):
                                                                                   "base": "hard+single+uniform+map-size=64"}}}, "32x18")
             text = gallery.draw({"choice": "filter", "name": "pcf", "view": "box", "technique": "pcf+map-size=64",
                                  "fails": {"view": "box", "technique": "pcf+map-size=16", "words": "Wide."}})
-            self.assertIn("times the time of `hard`", text)
+            self.assertIn("times `hard`'s time", text)
             self.assertEqual(sorted(file.name for file in (Path(kept) / "gallery").iterdir()), ["filter-pcf-fails.jpg", "filter-pcf.jpg"])
             gallery.film({"name": "two", "scene": "planes", "arguments": ["--camera", "side", "--frames", "0-3"], "size": "32x18", "fps": 12,
                           "techniques": ["hard", "pcf"], "words": "Two."})
