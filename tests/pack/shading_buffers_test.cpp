@@ -145,7 +145,10 @@ TEST(ShadingBuffers, WhatIsNotThereOrHasNoRoomIsAnError)
     pack::MaskDraw draw;
     draw.first_light = 1;
     EXPECT_THROW(pack::fillMaskLights(plan, {&draw, 1}, lights), Error);
-    EXPECT_THROW(pack::fillMaskLights(plan, {}, lights), Error);
+    Plan unknown = plan; // it does not say what its lights are
+    unknown.made_for.lights.clear();
+    EXPECT_THROW(pack::fillMaskLights(unknown, {}, lights), Error);
+    EXPECT_THROW(pack::fillLights(unknown, lights), Error);
 }
 
 } // namespace
