@@ -26,7 +26,6 @@ public:
     void draw(const Plan& given)
     {
         const Plan plan = withOptions(given);
-        const Frame frame;
         gpu().run([&](VkCommandBuffer commands) {
             drawer_.beginFrame(0, plan, mesh_.geometry, transforms_);
             renderer_.recordMaps(commands, 0, plan, [&](const vulkan::MapPass& pass) { drawer_.draw(pass); });

@@ -53,7 +53,6 @@ DrawnMaps drawMaps(const Scene& scene, const Plan& given, const ShadowOptions& f
     drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
     const auto transforms = scene.transforms();
     EXPECT_TRUE(renderer.prepare(plan, {8, 8}));
-    const Frame frame;
     gpu().run([&](VkCommandBuffer commands) {
         drawer.beginFrame(0, plan, mesh.geometry, transforms);
         renderer.recordMaps(commands, 0, plan, [&](const vulkan::MapPass& pass) { drawer.draw(pass); });

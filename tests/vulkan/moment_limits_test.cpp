@@ -132,7 +132,6 @@ TEST(MomentsAtRest, takeNoShaderAtAll)
             for (View& view : plan.views) {
                 view.redraw = redraw;
             }
-            const Frame frame;
             gpu().run([&](VkCommandBuffer commands) {
                 profiler.beginFrame(commands, 0);
                 drawer.beginFrame(0, plan, mesh.geometry, transforms);
