@@ -56,8 +56,10 @@ void addLights(Random& random, RandomScene& scene, const glm::dvec3& origin)
     }
     scene.lights.push_back(sun(way));
     const glm::dvec3 place = origin + random.inBox(glm::dvec3(-1.5), glm::dvec3(1.5)) * scene.size_m;
-    scene.lights.push_back(spot(place, random.direction(), glm::radians(random.uniform(1.0, 60.0)),
-                                random.below(2) == 0 ? 0.0 : random.uniform(0.2, 4.0) * scene.size_m));
+    // One after the other: compilers differ in the order of a call's arguments.
+    const double range_m = random.below(2) == 0 ? 0.0 : random.uniform(0.2, 4.0) * scene.size_m;
+    const double half_angle_rad = glm::radians(random.uniform(1.0, 60.0));
+    scene.lights.push_back(spot(place, random.direction(), half_angle_rad, range_m));
     scene.lights.push_back(awayLamp(random, scene, origin));
 }
 
@@ -150,7 +152,8 @@ Camera randomCamera(Random& random, RandomScene& scene, const glm::dvec3& origin
     }
     if (lens == 2) // a far plane so far that it means nothing
         return perspectiveCamera(eye, target, fov, 1.6, 0.001 * size, 1e7 * size);
-    return perspectiveCamera(eye, target, fov, random.uniform(0.3, 3.0), 0.01 * size, random.uniform(0.5, 9.0) * size);
+    const double far_m = random.uniform(0.5, 9.0) * size;
+    return perspectiveCamera(eye, target, fov, random.uniform(0.3, 3.0), 0.01 * size, far_m);
 }
 
 CascadeOptions randomCascades(Random& random, double size_m)
