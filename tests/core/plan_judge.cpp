@@ -301,7 +301,8 @@ std::string bytesOf(const Plan& plan)
     for (const View& v : plan.views) {
         append(out, v.light, v.clip_from_world, v.metric, v.orthographic, v.clamp_near, v.texel_m, v.tile, v.part);
         append(out, v.first_caster, v.caster_count, v.still_count, v.redraw, v.kept_layer, v.texel_xy_m);
-        append(out, v.fit, v.slice, v.sector, v.gpu_cascade, v.parallel, v.paraboloid, v.light_place_ws);
+        append(out, v.slice.axis, v.slice.begin_m, v.slice.end_m, v.slice.blend_m, v.slice.over, v.slice.across);
+        append(out, v.fit, v.sector, v.gpu_cascade, v.parallel, v.paraboloid, v.light_place_ws);
     }
     for (const std::vector<std::uint32_t>* objects : {&plan.casters, &plan.receivers})
         for (const std::uint32_t object : *objects)
