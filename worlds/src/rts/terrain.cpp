@@ -132,9 +132,11 @@ void Terrain::treadRoads(std::span<const Loop> roads)
 
 float Terrain::road(float x, float z) const
 {
-    const auto ix = static_cast<std::int32_t>(grid_.toCells(x) + 0.5F);
-    const auto iz = static_cast<std::int32_t>(grid_.toCells(z) + 0.5F);
-    return roads_[grid_.index(ix, iz)];
+    const auto nearest = [&](float v) {
+        const float cell = grid_.toCells(v) + 0.5F;
+        return static_cast<std::int32_t>(cell); // towards 0: the border's half cell is in the grid
+    };
+    return roads_[grid_.index(nearest(x), nearest(z))];
 }
 
 float Terrain::slope(float x, float z) const

@@ -94,7 +94,8 @@ glm::vec3 Meadow::normal(glm::vec2 xz) const
 float Meadow::pathDistance(glm::vec2 xz) const
 {
     const auto nearest = [&](float v) {
-        return std::clamp(static_cast<std::int32_t>((v + kMeadowSize_m * 0.5F) * grid_.cellsPerM() + 0.5F), 0, kCells);
+        const float cell = (v + kMeadowSize_m * 0.5F) * grid_.cellsPerM() + 0.5F;
+        return std::clamp(static_cast<std::int32_t>(cell), 0, kCells);
     };
     return path_m_[grid_.index(nearest(xz.x), nearest(xz.y))];
 }
