@@ -2,7 +2,6 @@
 // Which of a light's views a strip of the screen shows.
 #pragma once
 
-#include <gnomon/frame.h>
 #include <gnomon/pack/mask_draws.h>
 
 namespace gnomon::pack {

@@ -53,7 +53,7 @@ TEST(TexelShares, ShareWhatIsLeftUntilMoreIsOfNoUse)
     TexelShares().share(claims, 1e9);
     EXPECT_EQ(claims[0].side, 512U);
     EXPECT_EQ(claims[1].side, 128U);
-    // Of room for one doubling of the one or the other, the one that owes most has it.
+    // Room for one doubling goes to the map that the picture owes most to.
     TexelShares().share(claims, 64.0 * 64.0 + 128.0 * 128.0);
     EXPECT_EQ(claims[0].side, 128U);
     EXPECT_EQ(claims[1].side, 64U);

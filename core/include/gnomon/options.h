@@ -232,7 +232,8 @@ struct ShadowOptions {
     double max_distance_m = 0.0;
     double fade = 0.1; // share of max_distance_m over which shadows fade away: 0 .. 1
     /// Fit tsm with partition single and motion free: affine segments that the trapezoid is drawn in, each with a map
-    /// of its own, near ones smaller; 1 .. kMaxCascades. 1: all of it by one projective warp.
+    /// of its own, near ones smaller; 1 .. kMaxCascades. 1: all of it by one projective warp. Segments are T. Forsyth's
+    /// ("Extremely Practical Shadows", GDC 2006).
     std::uint32_t tsm_segments = 1;
     CascadeOptions cascades;                     // partitions cascades and sdsm
     MultiOptions multi;                          // partition multi

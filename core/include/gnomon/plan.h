@@ -405,7 +405,7 @@ struct PlannedFrame {
 /// What there is to draw in one frame, and what each light came to.
 struct Plan {
     std::uint64_t frame = 0; // Frame::index
-    PlannedFrame made_for;   // of the frame, what backends ask for
+    PlannedFrame made_for;   // the frame, as far as backends ask
     /// Differs between any two planners of a process. Maps of two planners may lie at the same place under different
     /// names, so a backend that is handed another planner's plan forgets what it noted of the last one's maps.
     std::uint64_t planner = 0;

@@ -14,7 +14,6 @@
 #pragma once
 
 #include <gnomon/export.h>
-#include <gnomon/frame.h>
 #include <gnomon/plan.h>
 
 #include <gnomon/shared/gpu_cascades.h>

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <gnomon/export.h>
-#include <gnomon/frame.h>
 #include <gnomon/pack/filter_rule.h>
 #include <gnomon/plan.h>
 

@@ -11,7 +11,6 @@
 #pragma once
 
 #include <gnomon/export.h>
-#include <gnomon/frame.h>
 #include <gnomon/pack/light_lists.h>
 #include <gnomon/plan.h>
 
