@@ -5,8 +5,8 @@
 #ifndef HOST_BY_VERTEX_GLSL
 #define HOST_BY_VERTEX_GLSL
 
-layout(constant_id = 19) const bool kInSoftware = false;
-layout(constant_id = 20) const bool kDrawsSky = false; // of screen.vert
+layout(constant_id = 20) const bool kInSoftware = false;
+layout(constant_id = 21) const bool kDrawsSky = false; // of screen.vert
 
 // Of scene.vert, from location 5 on.
 const int kSceneRayX = 0;

@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // Surfaces that are shaded where they are drawn: all opaque ones with Shading::forward, blended ones always; and what
-// emits, added to what a G-buffer was shaded to. With GNOMON_FILTER they ask the maps themselves, as the mask does:
+// emits, added to what a G-buffer was shaded to. With filters they ask the maps themselves, as the mask does:
 // door 2 of docs/integrating.md. A light has colours for them where the mask has its colours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(constant_id = 3) const bool kEmissiveOnly = false;
 layout(constant_id = 8) const bool kOpaque = false; // else blended
 layout(constant_id = 10) const bool kTints = true;  // blended casters may tint the light
-layout(constant_id = 25) const bool kLayered = false; // views may be View::layered ones
+layout(constant_id = 26) const bool kLayered = false; // views may be View::layered ones
+layout(constant_id = 27) const bool kOrthographic = false; // all views are
 #include "shown.glsl" // first: the library's headers take the macros of portability.h back
 #include "gnomon/shared/blended_tint.h"
-#ifdef GNOMON_FILTER
+#if defined(GNOMON_FILTER) || defined(GNOMON_FILTERS)
+#define SHADOWED
 #include "by_vertex.glsl" // kInSoftware
+#include "gnomon/lib/compiled_filters.glsl"
 #define GNOMON_SET 2
 #define GNOMON_TINTS kTints
 #define GNOMON_LAYERED kLayered
+#define GNOMON_ORTHOGRAPHIC_ONLY kOrthographic
 #define GNOMON_IN_SOFTWARE kInSoftware
 #define GNOMON_CONSTANT_ID 11
 #include "gnomon/technique_constants.glsl"
-#if GNOMON_FILTER == GNOMON_FILTER_ID || GNOMON_FILTER == GNOMON_FILTER_DEPTH_ID
+#if GNOMON_COMPILES_IDS
 uint receiver_object;
 uint receiver_piece;
 #define GNOMON_OBJECT receiver_object
@@ -47,7 +51,7 @@ layout(location = 0) out vec4 out_light;
 // What reaches the surface of a light. `own_tint`: of gnomonLightColour().
 vec3 seenBy(uint light, vec3 p, Surface surface, vec3 own_tint)
 {
-#ifdef GNOMON_FILTER
+#ifdef SHADOWED
     if (ids.y != 0u) {
         vec4 smooth_surface = gnomonSmoothSurface(p, surface.geometric_normal, normal);
         vec4 seen = gnomonLightColour(light, p, surface.geometric_normal, smooth_surface, own_tint, gl_FragCoord.xy);

@@ -12,7 +12,7 @@
 #include "ambient_occlusion.h"
 #include "occlusion_here.glsl"
 
-layout(constant_id = 22) const bool kOccluded = false;
+layout(constant_id = 23) const bool kOccluded = false;
 layout(set = 0, binding = 1) uniform sampler2D depths;
 layout(set = 0, binding = 2) uniform usampler2D surfaces;
 layout(set = 0, binding = 3) uniform sampler2DArray mask;

@@ -13,7 +13,7 @@
 // For each body what molecules and many scatterings give, and what dust gives but for its phase.
 layout(set = 0, binding = 8) uniform sampler2DArray sky_tables;
 // There are a moon or stars. A software rasteriser goes through all that a shader might do.
-layout(constant_id = 21) const bool kNight = false;
+layout(constant_id = 22) const bool kNight = false;
 #ifdef OVER_SURFACE
 layout(location = kScreenShare) in float share;
 #else

@@ -4,8 +4,8 @@
 #define HOST_TONE_GLSL
 #include "tone_curve.h"
 
-layout(constant_id = 23) const bool kFilmic = false; // ToneCurve
-layout(constant_id = 24) const bool kDither = false;
+layout(constant_id = 24) const bool kFilmic = false; // ToneCurve
+layout(constant_id = 25) const bool kDither = false;
 
 vec3 toneOf(vec3 light) { return kFilmic ? filmicTone(light) : neutralTone(light); }
 

@@ -2,6 +2,8 @@
 // Pipelines of surfaces that are shaded as they are drawn.
 #include "pipeline_wish.h"
 
+#include <gnomon/pack/filter_rule.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -9,18 +11,36 @@
 
 namespace gnomon::host {
 
-std::string forwardFragment(const ResolvedOptions& options, bool orthographic)
+std::string forwardFragment(const ResolvedOptions& options)
 {
-    const Filter read_by = options.hasFins() ? Filter::pcf : options.filter(); // the map beside the fins
-    std::string name(nameOf(read_by));
-    std::replace(name.begin(), name.end(), '-', '_'); // as files have it
-    return "forward_" + name + (options.hasSmoothies() ? "_smoothies" : "") + (orthographic ? "_orthographic" : "") +
-           ".frag";
+    if (options.hasSmoothies()) {
+        return "forward_smoothies.frag";
+    }
+    switch (pack::readingFilter(options)) {
+    case Filter::hard:
+        return "forward_hard.frag";
+    case Filter::pcss:
+        return "forward_pcss.frag";
+    case Filter::raymarch:
+        return "forward_raymarch.frag";
+    case Filter::vsm:
+    case Filter::msm:
+        return "forward_moments.frag";
+    case Filter::lvsm:
+    case Filter::esm:
+    case Filter::evsm:
+        return "forward_warped.frag";
+    case Filter::id:
+    case Filter::depth_id:
+        return "forward_ids.frag";
+    default:
+        return "forward_pcf.frag";
+    }
 }
 
 SurfacePipelines Pipelines::shadowedFor(const ResolvedOptions& options)
 {
-    const std::string fragment = forwardFragment(options, false);
+    const std::string fragment = forwardFragment(options);
     const pack::TechniqueConstants technique = pack::techniqueConstants(options);
     const auto found = std::ranges::find_if(
         shadowed_, [&](const Shadowed& one) { return one.fragment == fragment && one.technique == technique; });
@@ -76,6 +96,7 @@ const KindPipelines& Pipelines::forwardFor(const ForwardFacts& facts)
         wish.constants[kEmits] = emissive.whole != VK_NULL_HANDLE ? VK_TRUE : VK_FALSE;
         wish.constants[kTints] = facts.tints ? VK_TRUE : VK_FALSE;
         wish.constants[kLayered] = facts.layered ? VK_TRUE : VK_FALSE;
+        wish.constants[kOrthographic] = facts.orthographic ? VK_TRUE : VK_FALSE;
         std::memcpy(&wish.constants[kTechnique], &facts.technique, sizeof facts.technique);
         wish.scene = true;
         wish.depth = true;

@@ -26,12 +26,13 @@ enum Constant : std::uint32_t {
     kFilmic,
     kDither,
     kLayered,
+    kOrthographic,
     kMostConstants
 };
 
 // forward.frag, by_vertex.glsl, shade.frag, tone.glsl
-static_assert(kTechnique == 11 && kInSoftware == 19 && kDrawsSky == 20 && kNight == 21 && kOccluded == 22 &&
-              kDither == 24 && kLayered == 25);
+static_assert(kTechnique == 11 && kInSoftware == 20 && kDrawsSky == 21 && kNight == 22 && kOccluded == 23 &&
+              kDither == 25 && kLayered == 26);
 
 struct Pipelines::Wish {
     const char* name = "";

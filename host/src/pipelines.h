@@ -119,11 +119,12 @@ struct ForwardFacts {
     pack::TechniqueConstants technique;
     bool tints = false;   // blended casters may tint the light
     bool layered = false; // some view is View::layered
+    bool orthographic = false; // all views are
 
     bool operator==(const ForwardFacts&) const = default;
 };
 /// The shader for maps of these options.
-[[nodiscard]] std::string forwardFragment(const ResolvedOptions& options, bool orthographic);
+[[nodiscard]] std::string forwardFragment(const ResolvedOptions& options);
 
 class Pipelines {
 public:

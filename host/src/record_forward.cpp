@@ -38,8 +38,8 @@ void FrameRenderer::Impl::chooseForward(const ShadedBy& by)
     facts.by = by;
     if (plan != nullptr && !plan->views.empty()) {
         const ResolvedOptions& resolved = plan->options->front(); // as ForwardShadows::describe()
-        const bool orthographic = std::ranges::all_of(plan->views, &View::orthographic);
-        facts.fragment = forwardFragment(resolved, orthographic);
+        facts.fragment = forwardFragment(resolved);
+        facts.orthographic = std::ranges::all_of(plan->views, &View::orthographic);
         facts.technique = pack::techniqueConstants(resolved);
         facts.technique.few_views = pack::fewViewsOf(*plan);
         // lavapipe 22.3 crashes on other filters' shaders where the one view is at a fixed place of uniforms.

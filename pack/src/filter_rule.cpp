@@ -100,12 +100,6 @@ float biasReachTexels(const ResolvedOptions& options)
     return std::max(of_blur + kOfBilinear, options.filter() == Filter::esm ? kOfRing : 0.0F);
 }
 
-/// Smoothies are beside a map that pcf reads.
-Filter readBy(const ResolvedOptions& options)
-{
-    return options.hasFins() ? Filter::pcf : options.filter();
-}
-
 float smoothiesReach(const ResolvedOptions& options)
 {
     return options.hasSmoothies() ? static_cast<float>(options.asked().smoothies.reach_texels) : 0.0F;
@@ -250,6 +244,11 @@ float normalErrorFromDepth(std::uint32_t sub_pixel_bits)
     return normalError(0.0F) + snapOfBits(sub_pixel_bits);
 }
 
+Filter readingFilter(const ResolvedOptions& options)
+{
+    return options.hasFins() ? Filter::pcf : options.filter();
+}
+
 void fillRule(const ResolvedOptions& options, const DrawPrecision& precision, shared::GpuRule& out)
 {
     assert(precision.normal_error_rad >= 0.0F && precision.normal_error_rad <= 0.2F &&
@@ -282,7 +281,7 @@ void fillRule(const ResolvedOptions& options, const DrawPrecision& precision, sh
         (i % 2 == 0 ? two.y : two.w) = point.y;
     }
     fillMoments(options, out);
-    out.reading = {static_cast<int>(readBy(options)), kernelWidth(pcf.kernel), taps, depthHolding(options)};
+    out.reading = {static_cast<int>(readingFilter(options)), kernelWidth(pcf.kernel), taps, depthHolding(options)};
 }
 
 float mapDepth(const ResolvedOptions& options, std::span<const float> texel, TexelPart part)

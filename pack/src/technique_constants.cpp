@@ -20,6 +20,7 @@ TechniqueConstants techniqueConstants(const ResolvedOptions& options)
     constants.moment_sampling = moments.sampling;
     constants.moment_layers = moments.layers;
     constants.depth_holding = depthHolding(options);
+    constants.filter = static_cast<std::int32_t>(readingFilter(options));
     return constants;
 }
 

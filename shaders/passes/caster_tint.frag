@@ -6,15 +6,13 @@
 #include "gnomon/shared/blended_tint.h"
 #include "gnomon/lib/caster.glsl"
 
-#ifdef PARABOLOID
-layout(location = 0) in vec4 ray; // caster.vert
-layout(location = 2) in vec3 rim;
-#else
-layout(location = 0) in float metric;
-#endif
+layout(constant_id = 2) const bool kColoured = false; // CasterConstants
+layout(constant_id = 7) const bool kParaboloid = false;
+layout(location = 0) in float metric_in; // as caster.vert has them
 layout(location = 1) in vec2 uv;
+layout(location = 2) in vec3 rim;
 layout(location = 5) in vec4 colour_of_vertices;
-layout(constant_id = 2) const bool kColoured = false;
+layout(location = 6) in vec4 ray;
 layout(set = 0, binding = 0) uniform sampler2D base_colour;
 layout(push_constant) uniform Material
 {
@@ -28,12 +26,13 @@ layout(location = 0) out vec4 stored;
 
 void main()
 {
-#ifdef PARABOLOID
-    float metric = casterRadial(rim, ray.xyz, dFdx(ray.xyz), dFdy(ray.xyz), ray.w);
-    if (metric < 0.0) {
-        discard;
+    float metric = metric_in;
+    if (kParaboloid) {
+        metric = casterRadial(rim, ray.xyz, dFdx(ray.xyz), dFdy(ray.xyz), ray.w);
+        if (metric < 0.0) {
+            discard;
+        }
     }
-#endif
     vec4 all = texture(base_colour, uv) * tint;
     vec4 colour = clamp(kColoured ? all * colour_of_vertices : all, 0.0, 1.0);
     float depth = casterStored(metric);

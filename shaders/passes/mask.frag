@@ -1,64 +1,61 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // The mask. Up to four lights of one layer of the mask, for the pixel's surface; of a compact mask the lights of the
-// pixel's tile that have channels in the layer. Made for one filter (GNOMON_FILTER), for orthographic maps alone
-// (GNOMON_ORTHOGRAPHIC_ONLY), and in software for one view that serves all of its map, or one of each position of the sun
-// (GNOMON_ONE_VIEW).
+// pixel's tile that have channels in the layer. Made for one filter or a few (compiled_filters.glsl), and in software for
+// one view that serves all of its map, or one of each position of the sun (GNOMON_ONE_VIEW).
 #extension GL_GOOGLE_include_directive : require
-#include "gnomon/shared/choice_numbers.h"
+#include "gnomon/lib/compiled_filters.glsl"
 #include "gnomon/lib/mask_numbers.glsl"
 #include "gnomon/shared/gpu_structs.h"
 #include "gnomon/shared/screen_blur.h"
 #include "gnomon/shared/smooth_surface.h"
 
 // Not read from buffers: lavapipe executes both sides of every branch whose condition is not a constant.
-#include "gnomon/technique_constants.glsl" // 0 to 7
-layout(constant_id = 8) const bool kHasNormals = true;
+#include "gnomon/technique_constants.glsl" // 0 to 8
+layout(constant_id = 9) const bool kHasNormals = true;
 #ifdef GNOMON_ONE_VIEW
 #undef GNOMON_FEW_VIEWS
 #define GNOMON_FEW_VIEWS 1u
 const bool kInSoftware = true;
 #else
-layout(constant_id = 9) const bool kInSoftware = false; // see mask_numbers.glsl and screen_surface.glsl
+layout(constant_id = 10) const bool kInSoftware = false; // see mask_numbers.glsl and screen_surface.glsl
 #endif
-layout(constant_id = 10) const bool kHasSmooth = false;
-layout(constant_id = 11) const bool kTints = false; // some view has a map of tints
-layout(constant_id = 12) const bool kRaysAsMask = false; // see lib/raymarch.glsl
-layout(constant_id = 13) const bool kConfidence = false; // for converge.frag: packSeen()
-layout(constant_id = 14) const bool kColoured = false; // all four channels are of one light: red, green, blue, luminance
+layout(constant_id = 11) const bool kHasSmooth = false;
+layout(constant_id = 12) const bool kTints = false; // some view has a map of tints
+layout(constant_id = 13) const bool kRaysAsMask = false; // see lib/raymarch.glsl
+layout(constant_id = 14) const bool kConfidence = false; // for converge.frag: packSeen()
+layout(constant_id = 15) const bool kColoured = false; // all four channels are of one light: red, green, blue, luminance
 #ifdef GNOMON_ONE_VIEW
 const uint kTileChannels = 0;
 const bool kTakesAway = false;
 #else
-layout(constant_id = 15) const uint kTileChannels = 0; // of a compact mask: 4 or 8; 0: the mask is not compact
-layout(constant_id = 16) const bool kTakesAway = false; // of a compact mask, several draws: this one's is taken from 1
+layout(constant_id = 16) const uint kTileChannels = 0; // of a compact mask: 4 or 8; 0: the mask is not compact
+layout(constant_id = 17) const bool kTakesAway = false; // of a compact mask, several draws: this one's is taken from 1
 #endif
-#if defined(GNOMON_ORTHOGRAPHIC_ONLY) || defined(GNOMON_ONE_VIEW) || (GNOMON_FILTER != GNOMON_FILTER_HARD && GNOMON_FILTER != GNOMON_FILTER_PCF)
+#if defined(GNOMON_ONE_VIEW) || !GNOMON_COMPILES_KERNELS
 #define GNOMON_PARABOLOID false
 #else
-layout(constant_id = 17) const bool kParaboloid = false; // views may be paraboloids
-#define GNOMON_PARABOLOID kParaboloid
+layout(constant_id = 18) const bool kParaboloid = false; // views may be paraboloids
+#define GNOMON_PARABOLOID (kParaboloid && !kOrthographic)
 #endif
-layout(constant_id = 18) const bool kHasIds = false;   // else object_ids is a stand-in
+layout(constant_id = 19) const bool kHasIds = false;   // else object_ids is a stand-in
 #ifndef GNOMON_ONE_VIEW
-layout(constant_id = 19) const bool kSlicesAlone = false; // see light_visibility.glsl
+layout(constant_id = 20) const bool kSlicesAlone = false; // see light_visibility.glsl
 #define GNOMON_SLICES_ALONE kSlicesAlone
-#elif GNOMON_FILTER == GNOMON_FILTER_HARD || GNOMON_FILTER == GNOMON_FILTER_PCF // of others it would be bytes for little
+#elif GNOMON_COMPILES_KERNELS // of others it would be bytes for little
 #define GNOMON_PAIRS
-layout(constant_id = 20) const bool kPaired = false; // two positions of the sun
+layout(constant_id = 21) const bool kPaired = false; // two positions of the sun
 #define GNOMON_PAIRED kPaired
 #endif
-#ifdef GNOMON_ONE_VIEW
+#ifdef GNOMON_ONE_VIEW // which leaves nothing to others
 #define GNOMON_LAYERED false
 #else
-#if defined(GNOMON_ORTHOGRAPHIC_ONLY) || defined(GNOMON_ONE_VIEW) // lamps alone have them, and one leaves nothing to others
-#define GNOMON_LAYERED false
-#else
-layout(constant_id = 22) const bool kLayered = false; // views may be View::layered ones
-#define GNOMON_LAYERED kLayered
+layout(constant_id = 23) const bool kLayered = false; // views may be View::layered ones
+layout(constant_id = 24) const bool kOrthographic = false; // all views are
+#define GNOMON_LAYERED (kLayered && !kOrthographic)
+#define GNOMON_ORTHOGRAPHIC_ONLY kOrthographic
 #endif
-#endif
-layout(constant_id = 21) const int kPixelsPerTexel = 1; // along x and y, of what is drawn to: mask-size=half
+layout(constant_id = 22) const int kPixelsPerTexel = 1; // along x and y, of what is drawn to: mask-size=half
 layout(push_constant) uniform Lights
 {
     uint first_light; // of the layer's; of a compact mask the layer
@@ -89,7 +86,7 @@ GpuView later_view; // of the later position
 #define GNOMON_SHOWS_RAYS kRaysAsMask
 #define GNOMON_SMOOTH kHasSmooth
 #define GNOMON_CONFIDENCE kConfidence
-#if GNOMON_FILTER == GNOMON_FILTER_ID || GNOMON_FILTER == GNOMON_FILTER_DEPTH_ID
+#if GNOMON_COMPILES_IDS
 uint receiver_object;
 uint receiver_piece;
 #define GNOMON_OBJECT receiver_object

@@ -6,4 +6,5 @@ layout(location = 0) out vec4 stored;
 void main()
 {
     stored = vec4(1.0);
+    gl_FragDepth = 1.0;
 }

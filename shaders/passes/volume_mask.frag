@@ -9,6 +9,7 @@
 layout(constant_id = 0) const bool kHasNormals = true;
 layout(constant_id = 1) const bool kHasSmooth = false;
 layout(constant_id = 2) const bool kIsInside = false;
+layout(constant_id = 3) const bool kHasIds = false; // else object_ids is a stand-in
 layout(push_constant) uniform Push
 {
     vec4 place; // of the light, GpuLight::place
@@ -20,9 +21,7 @@ layout(set = 0, binding = 0, std140) uniform Constants
 layout(set = 0, binding = 1) uniform sampler2D depths;
 layout(set = 0, binding = 2) uniform sampler2D normals;
 layout(set = 0, binding = 3) uniform sampler2D smooth_surfaces;
-#ifdef GNOMON_OBJECT_IDS
 layout(set = 0, binding = 4) uniform usampler2D object_ids;
-#endif
 layout(location = 0) out vec4 visibility;
 
 #define GNOMON_SURFACE_SCREEN constants.screen
@@ -35,11 +34,9 @@ void main()
     if (depth == constants.screen.fade.z) {
         discard; // what is not drawn stays lit
     }
-#ifdef GNOMON_OBJECT_IDS
-    if (texelFetch(object_ids, pixel, 0).r == 0) {
+    if (kHasIds && texelFetch(object_ids, pixel, 0).r == 0) {
         discard;
     }
-#endif
     vec3 p = positionAt(pixel, depth);
     vec3 n = kHasNormals ? octahedralDecode(texelFetch(normals, pixel, 0).rg) : normalFromDepth(pixel, depth, p);
     SmoothSurface s = kHasSmooth ? smoothDecode(texelFetch(smooth_surfaces, pixel, 0).rgb, p, n) : flatSurface(n);

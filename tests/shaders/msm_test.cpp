@@ -359,13 +359,13 @@ TEST(Msm, slopesAreLitAndDarkAlike)
                 test::map_moments = [&](glm::dvec2, double, double) {
                     return map;
                 };
-                EXPECT_GT(filterMsm(point, f), 0.995) << flags << ' ' << sigma << ' ' << steep;
+                EXPECT_GT(filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer)), 0.995) << flags << ' ' << sigma << ' ' << steep;
                 darkest_before = std::min(darkest_before, msmVisibility(map, 0.2, f.moments));
                 map = blurredPlane(0.2, 2.0 * point.depth_slope, sigma, flags, -0.4, 1.0);
-                EXPECT_LT(filterMsm(point, f), 0.005) << flags << ' ' << sigma << ' ' << steep;
+                EXPECT_LT(filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer)), 0.005) << flags << ' ' << sigma << ' ' << steep;
                 if (steep * sigma <= 0.005) { // half of it below an occluder
                     map = blurredPlane(0.2, 2.0 * point.depth_slope, sigma, flags, -0.4, 0.5);
-                    EXPECT_NEAR(filterMsm(point, f), 0.5, 0.02) << flags << ' ' << sigma << ' ' << steep;
+                    EXPECT_NEAR(filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer)), 0.5, 0.02) << flags << ' ' << sigma << ' ' << steep;
                 }
             }
         }
@@ -394,7 +394,7 @@ TEST(Msm, slopesAreLitAtCoarserLevelsToo)
             const double sigma = std::sqrt(1.25 * 1.25 + side * side / 12.0);
             return blurredPlane(0.2 + 2.0 * glm::dot(point.depth_slope, texel), 2.0 * point.depth_slope, sigma, 0);
         };
-        EXPECT_GT(filterMsm(point, f), 0.995) << sampling;
+        EXPECT_GT(filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer)), 0.995) << sampling;
         const double of_finest = std::sqrt(1.25 * 1.25 + 1.0 / 3.0) * 2.0 * glm::length(point.depth_slope);
         EXPECT_LT(msmVisibility(sampleMoments(point, f, 0.0), 0.2 - of_finest, f.moments), 0.95) << sampling;
     }
@@ -421,7 +421,7 @@ TEST(Msm, hostileValuesStayInRange)
                             };
                             for (const double depth : values) {
                                 point.depth = depth;
-                                const double v = filterMsm(point, f);
+                                const double v = filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer));
                                 EXPECT_TRUE(v >= 0.0 && v <= 1.0) << v;
                             }
                         }

@@ -42,7 +42,7 @@ protected:
     double visibility(double m)
     {
         point.depth = m;
-        return filterVsm(point, input);
+        return filterVsm(point, input, sampleMoments(point, input, input.layer));
     }
 
     FilterInput input{};
@@ -333,8 +333,8 @@ TEST_F(Vsm, numbersInTheTablesAreThoseOfTheEnum)
 {
     stored = {0.5, 0.3, 0.0, 0.0};
     point.depth = 0.7;
-    EXPECT_EQ(applyFilter(kFilterVsm, point, input), filterVsm(point, input));
-    EXPECT_LT(filterVsm(point, input), 1.0);
+    EXPECT_EQ(applyFilter(kFilterVsm, point, input), filterVsm(point, input, sampleMoments(point, input, input.layer)));
+    EXPECT_LT(filterVsm(point, input, sampleMoments(point, input, input.layer)), 1.0);
     EncodeInput e{};
     e.depth = 0.3;
     EXPECT_EQ(encodeDepth(kFilterVsm, e, input.moments), glm::dvec4(0.3, 0.3 * 0.3, 0.0, 0.0));

@@ -83,6 +83,7 @@ void CascadeFitter::record(VkCommandBuffer commands, std::uint32_t slot_index, c
 {
     assert(slot_index < slots_.size() && inputs.depth != VK_NULL_HANDLE);
     Slot& slot = slots_[slot_index];
+    no_ids_.makeReadable(device_, commands);
     writeFitSet(slot, inputs);
     const glm::uvec2 screen_px(inputs.extent.width, inputs.extent.height);
     auto* const described = static_cast<shared::GpuCascadeLight*>(slot.lights.data());

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "descriptors.h"
+#include "stand_in.h"
 
 #include <gnomon/shared/gpu_cascades.h>
 
@@ -65,6 +66,7 @@ private:
     PipelineLayout complete_layout_;
     std::array<Pipeline, kPassCount> passes_;
     Pipeline complete_;
+    StandIn no_ids_;
     DeviceBuffer keys_;
     DeviceBuffer views_;
     std::vector<Slot> slots_;

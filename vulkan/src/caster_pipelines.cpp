@@ -5,6 +5,7 @@
 #include "map_storage.h"
 #include "optional_parts.h"
 #include "pipelines.h"
+#include "specialisation.h"
 #include "usage.h"
 
 #include <gnomon/error.h>
@@ -20,121 +21,84 @@ namespace {
 
 using Code = std::span<const std::uint32_t>;
 
-/// Plain, masked, clipped, both.
-struct VertexCodes {
-    std::array<Code, 4> orthographic, metric, perspective;
-};
-
-#define GNOMON_MASKED_AND_CLIPPED(name)                                                                                \
-    {                                                                                                                  \
-        spirv::name##_vert, spirv::name##_masked_vert, spirv::name##_clipped_vert, spirv::name##_masked_clipped_vert   \
-    }
-// Vertex shaders of masked or clipped casters hand on the metric, whether a fragment shader takes it or not.
-#define GNOMON_ORTHOGRAPHIC(name)                                                                                      \
-    {                                                                                                                  \
-        spirv::name##_vert, spirv::name##_metric_masked_vert, spirv::name##_metric_clipped_vert,                       \
-            spirv::name##_metric_masked_clipped_vert                                                                   \
-    }
-#define GNOMON_VERTEX_CODES(name)                                                                                      \
-    {                                                                                                                  \
-        GNOMON_ORTHOGRAPHIC(name##_orthographic), GNOMON_MASKED_AND_CLIPPED(name##_orthographic_metric),               \
-            GNOMON_MASKED_AND_CLIPPED(name##_perspective)                                                              \
-    }
-VertexCodes vertexCodes(const CasterPipelineKey& key)
+Code vertexCode(const CasterPipelineKey& key)
 {
     if (key.layered && key.placed) {
-        return GNOMON_VERTEX_CODES(caster_layered_placed);
+        return key.clipped ? spirv::caster_layered_placed_clipped_vert : spirv::caster_layered_placed_vert;
     }
     if (key.layered) {
-        return GNOMON_VERTEX_CODES(caster_layered);
+        return key.clipped ? spirv::caster_layered_clipped_vert : spirv::caster_layered_vert;
     }
-    if (key.placed) {
-        return GNOMON_VERTEX_CODES(caster_placed);
-    }
-    return GNOMON_VERTEX_CODES(caster);
-}
-#undef GNOMON_VERTEX_CODES
-#undef GNOMON_ORTHOGRAPHIC
-
-// Of maps that hold ids.
-std::array<Code, 4> idVertexCodes(const CasterPipelineKey& key)
-{
-    if (key.placed) {
-        return key.perspective ? std::array<Code, 4> GNOMON_MASKED_AND_CLIPPED(caster_ids_placed_perspective)
-                               : std::array<Code, 4>
-                                     GNOMON_MASKED_AND_CLIPPED(caster_ids_placed_orthographic_metric);
-    }
-    return key.perspective ? std::array<Code, 4> GNOMON_MASKED_AND_CLIPPED(caster_ids_perspective)
-                           : std::array<Code, 4>
-                                 GNOMON_MASKED_AND_CLIPPED(caster_ids_orthographic_metric);
+    return key.clipped ? spirv::caster_clipped_vert : spirv::caster_vert;
 }
 
-Code vertexCode(const MapPassFormats& formats, const CasterPipelineKey& key)
-{
-    const std::size_t which = (key.masked ? 1U : 0U) + (key.clipped ? 2U : 0U);
-    if (formats.paraboloid) {
-        return std::array<Code, 4> GNOMON_MASKED_AND_CLIPPED(caster_paraboloid)[which];
-    }
-    if (formats.ids) {
-        return idVertexCodes(key)[which];
-    }
-    const VertexCodes codes = vertexCodes(key);
-    if (key.perspective) {
-        return codes.perspective[which];
-    }
-    return formats.colour != VK_FORMAT_UNDEFINED ? codes.metric[which] : codes.orthographic[which];
-}
-#undef GNOMON_MASKED_AND_CLIPPED
-
-std::span<const std::uint32_t> paraboloidFragmentCode(const MapPassFormats& formats, bool masked)
-{
-    if (formats.blended) {
-        return spirv::caster_tint_paraboloid_frag;
-    }
-    if (formats.colour != VK_FORMAT_UNDEFINED) {
-        return masked ? spirv::caster_paraboloid_colour_masked_frag : spirv::caster_paraboloid_colour_frag;
-    }
-    return masked ? spirv::caster_paraboloid_masked_frag : spirv::caster_paraboloid_frag;
-}
+/// The same without and with a texture's holes.
+struct FragmentCodes {
+    Code whole;
+    Code masked;
+};
 
 // Empty where the rasteriser alone does the work.
-std::span<const std::uint32_t> fragmentCode(const MapPassFormats& formats, bool masked, bool per_sample)
+FragmentCodes fragmentCodes(const MapPassFormats& formats, bool per_sample)
 {
-    if (formats.paraboloid) {
-        return paraboloidFragmentCode(formats, masked);
-    }
+    using namespace spirv;
+    const bool coloured = formats.colour != VK_FORMAT_UNDEFINED;
     if (formats.blended) {
-        return spirv::caster_tint_frag;
-    }
-    if (formats.ids) {
-        return masked ? spirv::caster_ids_masked_frag : spirv::caster_ids_frag;
-    }
-    if (formats.behind_first && formats.write_frag_depth) {
-        return masked ? spirv::caster_behind_depth_masked_frag : spirv::caster_behind_depth_frag;
+        return {caster_tint_frag, caster_tint_frag};
     }
     if (formats.behind_first) {
-        return masked ? spirv::caster_behind_masked_frag : spirv::caster_behind_frag;
+        return {caster_behind_frag, caster_behind_masked_frag};
     }
-    if (formats.colour != VK_FORMAT_UNDEFINED) {
-        return masked ? spirv::caster_colour_masked_frag : spirv::caster_colour_frag;
+    if (formats.paraboloid && coloured) {
+        return {caster_colour_depth_frag, caster_colour_depth_masked_frag};
     }
-    if (formats.write_frag_depth && per_sample) {
-        return masked ? spirv::caster_depth_samples_masked_frag : spirv::caster_depth_samples_frag;
+    if (coloured) {
+        return {caster_colour_frag, caster_colour_masked_frag};
     }
-    if (formats.write_frag_depth) {
-        return masked ? spirv::caster_depth_masked_frag : spirv::caster_depth_frag;
+    if (formats.write_frag_depth && per_sample && !formats.paraboloid) {
+        return {caster_depth_samples_frag, caster_depth_samples_masked_frag};
+    }
+    if (formats.write_frag_depth || formats.paraboloid) {
+        return {caster_depth_frag, caster_depth_masked_frag};
     }
     // Alpha is tested once for all samples of a texel: testing each would run the shader four times for what is a
     // depth write else.
-    return masked ? spirv::caster_masked_frag : std::span<const std::uint32_t>{};
+    return {{}, caster_masked_frag};
 }
 
-// The constants of the casters' shaders, by constant_id.
+/// The constant_ids of the casters' shaders, four bytes each, in their order.
 struct CasterConstants {
     std::int32_t holding = 0;
     float quantum = 0.0F;
     VkBool32 coloured = VK_FALSE;
+    VkBool32 masked = VK_FALSE;
+    VkBool32 perspective = VK_FALSE;
+    VkBool32 metric = VK_FALSE;
+    VkBool32 ids = VK_FALSE;
+    VkBool32 paraboloid = VK_FALSE;
+    VkBool32 placed = VK_FALSE;
+    VkBool32 own_depth = VK_FALSE;
 };
+
+VkBool32 asBool32(bool value)
+{
+    return value ? VK_TRUE : VK_FALSE;
+}
+
+CasterConstants constantsOf(const CasterPipelineKey& key, bool has_fragment)
+{
+    const MapPassFormats& formats = key.formats;
+    return {formats.colour == VK_FORMAT_R8G8B8A8_UNORM ? shared::kDepthBytes : shared::kDepthAlone,
+            depthRounding(formats.depth),
+            asBool32(key.coloured),
+            asBool32(key.masked),
+            asBool32(key.perspective),
+            asBool32(has_fragment),
+            asBool32(formats.ids),
+            asBool32(formats.paraboloid),
+            asBool32(key.placed),
+            asBool32(formats.write_frag_depth)};
+}
 
 void checkVertices(const CasterVertices& vertices)
 {
@@ -167,51 +131,63 @@ struct VertexInput {
     std::array<VkVertexInputBindingDescription, 6> bindings{};
     std::array<VkVertexInputAttributeDescription, 12> attributes{};
     std::uint32_t binding_count = 0;
-    std::uint32_t attribute_count = 0;
+
+    void bind(std::uint32_t binding, std::uint32_t stride, VkVertexInputRate rate)
+    {
+        bindings[binding_count++] = {binding, stride, rate};
+    }
+    void read(std::uint32_t location, std::uint32_t binding, VkFormat format, std::uint32_t offset)
+    {
+        attributes[location] = {location, binding, format, offset};
+    }
 };
 
+// Vulkan wants something for every input that a module declares: of what the pipeline does not read, the first row.
 VertexInput vertexInput(const CasterPipelineKey& key, const CasterVertices& vertices)
 {
     constexpr std::uint32_t kRowBytes = sizeof(glm::vec4);
+    constexpr VkFormat kRow = VK_FORMAT_R32G32B32A32_SFLOAT;
+    constexpr std::uint32_t kUv = 6;
+    constexpr std::uint32_t kPlace = 7;
+    constexpr std::uint32_t kOwn = 8;
+    constexpr std::uint32_t kId = 9;
+    constexpr std::uint32_t kPiece = 10;
+    constexpr std::uint32_t kColour = 11;
     const std::uint32_t rows = pack::casterRowCount(!key.perspective);
     VertexInput input;
-    input.bindings[input.binding_count++] = {0, vertices.position.stride, VK_VERTEX_INPUT_RATE_VERTEX};
-    input.bindings[input.binding_count++] = {1, instanceBytes(key.perspective, key.layered, key.formats.ids),
-                                             VK_VERTEX_INPUT_RATE_INSTANCE};
-    input.attributes[input.attribute_count++] = {0, 0, vertices.position.format, vertices.position.offset};
+    for (std::uint32_t location = 1; location < input.attributes.size(); ++location) {
+        const bool whole = location == kPiece || (location == kPlace && key.layered);
+        input.read(location, 1, whole ? VK_FORMAT_R32_UINT : kRow, 0);
+    }
+    input.bind(0, vertices.position.stride, VK_VERTEX_INPUT_RATE_VERTEX);
+    input.bind(1, instanceBytes(key.perspective, key.layered, key.formats.ids), VK_VERTEX_INPUT_RATE_INSTANCE);
+    input.read(0, 0, vertices.position.format, vertices.position.offset);
     for (std::uint32_t i = 0; i < rows; ++i) {
-        input.attributes[input.attribute_count++] = {1 + i, 1, VK_FORMAT_R32G32B32A32_SFLOAT, i * kRowBytes};
+        input.read(1 + i, 1, kRow, i * kRowBytes);
     }
     if (key.masked) {
-        input.bindings[input.binding_count++] = {2, vertices.uv.stride, VK_VERTEX_INPUT_RATE_VERTEX};
-        input.attributes[input.attribute_count++] = {1 + rows, 2, vertices.uv.format, vertices.uv.offset};
-        if (key.coloured) {
-            input.bindings[input.binding_count++] = {kColourBinding, vertices.colour.stride,
-                                                     VK_VERTEX_INPUT_RATE_VERTEX};
-            input.attributes[input.attribute_count++] = {11, kColourBinding, vertices.colour.format,
-                                                         vertices.colour.offset};
-        } else { // Vulkan wants something for every input that a module declares
-            input.attributes[input.attribute_count++] = {11, 0, vertices.position.format, vertices.position.offset};
-        }
+        input.bind(2, vertices.uv.stride, VK_VERTEX_INPUT_RATE_VERTEX);
+        input.read(kUv, 2, vertices.uv.format, vertices.uv.offset);
+    }
+    if (key.masked && key.coloured) {
+        input.bind(kColourBinding, vertices.colour.stride, VK_VERTEX_INPUT_RATE_VERTEX);
+        input.read(kColour, kColourBinding, vertices.colour.format, vertices.colour.offset);
     }
     if (key.formats.ids) {
-        input.attributes[input.attribute_count++] = {8, 1, VK_FORMAT_R32G32B32A32_SFLOAT, rows * kRowBytes};
-        input.attributes[input.attribute_count++] = {9, 1, VK_FORMAT_R32G32_SFLOAT, (rows + 1) * kRowBytes};
-        if (key.formats.pieces) {
-            input.bindings[input.binding_count++] = {kPieceBinding, vertices.piece.stride, VK_VERTEX_INPUT_RATE_VERTEX};
-            input.attributes[input.attribute_count++] = {10, kPieceBinding, vertices.piece.format,
-                                                         vertices.piece.offset};
-        } else { // a zero of the instance's own
-            input.attributes[input.attribute_count++] = {10, 1, VK_FORMAT_R32_UINT,
-                                                         (rows + 1) * kRowBytes + kRowBytes / 2};
-        }
+        input.read(kOwn, 1, kRow, rows * kRowBytes);
+        input.read(kId, 1, VK_FORMAT_R32G32_SFLOAT, (rows + 1) * kRowBytes);
+        input.read(kPiece, 1, VK_FORMAT_R32_UINT, (rows + 1) * kRowBytes + kRowBytes / 2); // a zero
+    }
+    if (key.formats.pieces) {
+        input.bind(kPieceBinding, vertices.piece.stride, VK_VERTEX_INPUT_RATE_VERTEX);
+        input.read(kPiece, kPieceBinding, vertices.piece.format, vertices.piece.offset);
     }
     if (key.layered) {
-        input.attributes[input.attribute_count++] = {7, 1, VK_FORMAT_R32_UINT, rows * kRowBytes};
+        input.read(kPlace, 1, VK_FORMAT_R32_UINT, rows * kRowBytes);
     } else if (key.placed) {
         // A stride of 0: all instances read the same.
-        input.bindings[input.binding_count++] = {kPlacementBinding, 0, VK_VERTEX_INPUT_RATE_INSTANCE};
-        input.attributes[input.attribute_count++] = {7, kPlacementBinding, VK_FORMAT_R32G32B32A32_SFLOAT, 0};
+        input.bind(kPlacementBinding, 0, VK_VERTEX_INPUT_RATE_INSTANCE);
+        input.read(kPlace, kPlacementBinding, kRow, 0);
     }
     return input;
 }
@@ -256,40 +232,24 @@ VkPipeline CasterPipelines::get(const CasterPipelineKey& key) const
 Pipeline CasterPipelines::make(const CasterPipelineKey& key)
 {
     const MapPassFormats& formats = key.formats;
-    const ShaderModule vertex = makeShader(device_, vertexCode(formats, key));
+    const ShaderModule vertex = makeShader(device_, vertexCode(key));
     const bool per_sample = formats.samples != VK_SAMPLE_COUNT_1_BIT && device_.uses().sample_metric;
-    const std::span<const std::uint32_t> fragment_code = fragmentCode(formats, key.masked, per_sample);
+    const FragmentCodes codes = fragmentCodes(formats, per_sample);
+    const Code fragment_code = key.masked ? codes.masked : codes.whole;
+    const Specialisation specialisation(constantsOf(key, !fragment_code.empty()));
     ShaderModule fragment;
-    const CasterConstants constants{formats.colour == VK_FORMAT_R8G8B8A8_UNORM ? shared::kDepthBytes
-                                                                               : shared::kDepthAlone,
-                                    depthRounding(formats.depth), key.coloured ? VK_TRUE : VK_FALSE};
-    const std::array entries{
-        VkSpecializationMapEntry{0, offsetof(CasterConstants, holding), sizeof constants.holding},
-        VkSpecializationMapEntry{1, offsetof(CasterConstants, quantum), sizeof constants.quantum},
-        VkSpecializationMapEntry{2, offsetof(CasterConstants, coloured), sizeof constants.coloured}};
-    const VkSpecializationInfo specialisation{entries.size(), entries.data(), sizeof constants, &constants};
-    std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
-    stages[0].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
-    stages[0].module = vertex.get();
-    stages[0].pName = "main";
-    stages[0].pSpecializationInfo = key.coloured ? &specialisation : nullptr;
     if (!fragment_code.empty()) {
         fragment = makeShader(device_, fragment_code);
-        stages[1] = stages[0];
-        stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
-        stages[1].module = fragment.get();
-        if ((formats.colour != VK_FORMAT_UNDEFINED && !formats.blended) || formats.behind_first || key.coloured) {
-            stages[1].pSpecializationInfo = &specialisation;
-        }
     }
+    TwoStages stages = stagesOf(vertex, fragment, specialisation.info());
+    stages[0].pSpecializationInfo = specialisation.info();
     const VertexInput input = vertexInput(key, options_.vertices);
 
     GraphicsState state;
     state.stages = std::span(stages).first(fragment ? 2 : 1);
     state.layout = layout_.get();
     state.bindings = std::span(input.bindings).first(input.binding_count);
-    state.attributes = std::span(input.attributes).first(input.attribute_count);
+    state.attributes = input.attributes;
     state.colour_format = formats.colour;
     state.colour_mask = colourMaskOf(formats.colour, key.part);
     state.tints = formats.blended;

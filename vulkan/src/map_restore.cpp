@@ -48,7 +48,7 @@ void MapRestorer::setKept(VkImageView depths, VkImageView colours)
 
 Pipeline MapRestorer::makePipeline(std::span<const std::uint32_t> fragment, TexelPart part)
 {
-    const ShaderModule vertex_module = makeShader(device_, spirv::restore_vert);
+    const ShaderModule vertex_module = makeShader(device_, spirv::mask_vert);
     const ShaderModule fragment_module = makeShader(device_, fragment);
     const TwoStages stages = stagesOf(vertex_module, fragment_module);
     GraphicsState state;

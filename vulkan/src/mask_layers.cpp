@@ -115,7 +115,7 @@ void MaskPassRecorder::recordHalved(VkCommandBuffer commands, std::uint32_t slot
     }
     toReadable(device_, commands, half);
     spread_->begin(commands, slot_index,
-                   {inputs.depth, inputs.depth_layout, inputs.normal, inputs.object_id, no_numbers_.layer(0),
+                   {inputs.depth, inputs.depth_layout, inputs.normal, inputs.object_id, no_numbers_.layer(),
                     slot.constants.buffer()},
                    target);
     for (std::uint32_t layer = 0; layer < layers; ++layer) {

@@ -175,8 +175,7 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen, const MapCla
         tinted_[i] = maps[i] && maps[i]->tints.inUse() ? 1 : 0;
     }
     if (!no_numbers_) {
-        no_numbers_ = Image(
-            device_, {VK_FORMAT_R32_UINT, {1, 1}, 1, VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_COLOR_BIT, "mask"});
+        no_numbers_ = StandIn(device_);
     }
     const ImageInfo& have = mask_.info();
     const bool fits = mask_ && have.format == maskFormat(channelsFor(plan)) && have.layers >= layersFor(plan) &&
@@ -218,7 +217,7 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
         DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
         orDepth(kNormal, inputs.normal),
         DescriptorSets::image(kObjectId, sampler,
-                              inputs.object_id != VK_NULL_HANDLE ? inputs.object_id : no_numbers_.layer(0), kRead),
+                              inputs.object_id != VK_NULL_HANDLE ? inputs.object_id : no_numbers_.layer(), kRead),
         DescriptorSets::buffer(kFewViews, constants, shared::kFewViews * sizeof(shared::GpuView), room_.views_at),
         blocks != nullptr ? DescriptorSets::image(kBlocks, sampler, blocks->view(), VK_IMAGE_LAYOUT_GENERAL)
                           : DescriptorSets::image(kBlocks, sampler, no_numbers_.view(), kRead),
@@ -229,18 +228,6 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
             ? DescriptorSets::buffer(kTiles, slot.tiles.buffer())
             : DescriptorSets::buffer(kTiles, constants, room_.lights * sizeof(shared::GpuLight), room_.lights_at)};
     sets_.write(slot.sets[options], writes);
-}
-
-/// Its one texel holds anything: nobody reads it.
-void MaskPassRecorder::makeStandInReadable(VkCommandBuffer commands)
-{
-    ImageBarrier barrier;
-    barrier.image = no_numbers_.image();
-    barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    barrier.target_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
-    barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-    recordBarrier(device_, commands, barrier);
-    stand_in_readable_ = true;
 }
 
 void MaskPassRecorder::fill(Slot& slot, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps)
@@ -273,7 +260,7 @@ void MaskPassRecorder::recordVolumes(VkCommandBuffer commands, std::uint32_t slo
 {
     if (VolumePassRecorder::draws(plan)) {
         volumes_->record(commands, slot, plan, inputs, {slots_[slot].constants.buffer(), room_.constants_stride},
-                         target);
+                         no_numbers_, target);
     }
 }
 
@@ -285,9 +272,7 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     assert(inputs.depth != VK_NULL_HANDLE);
     assert(inputs.extent.width == mask_.info().extent.width && inputs.extent.height == mask_.info().extent.height);
     drawn_is_known_ = false; // until all of it is there
-    if (!stand_in_readable_) {
-        makeStandInReadable(commands);
-    }
+    no_numbers_.makeReadable(device_, commands);
     Slot& slot = slots_[slot_index];
     fill(slot, plan, inputs, maps);
     if (CascadeFitter::fits(plan)) {

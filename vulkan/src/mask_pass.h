@@ -136,7 +136,6 @@ private:
     // destroyed may have the same handle.
     void writeSet(const Slot& slot, std::uint32_t options, const MaskInputs& inputs, const MapClass& maps);
     [[nodiscard]] VkPipeline pipeline(const Plan& plan, const pack::MaskDraw& draw, MaskShape shape, DrawnAs as);
-    void makeStandInReadable(VkCommandBuffer commands);
     void fill(Slot& slot, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps);
     void recordLayer(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target,
                      std::uint32_t layer, DrawnAs as);
@@ -149,8 +148,7 @@ private:
     VkPipelineCache cache_;
     pack::CompactMaskRule compact_;
     Image mask_;
-    Image no_numbers_; // bound where there are no ids of objects, or no blocks
-    bool stand_in_readable_ = false;
+    StandIn no_numbers_; // bound where there are no ids of objects, or no blocks
     DescriptorSets sets_;
     PipelineLayout layout_;
     Sampler nearest_; // of what is read texel by texel

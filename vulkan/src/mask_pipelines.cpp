@@ -13,49 +13,45 @@
 namespace gnomon::vulkan {
 namespace {
 
-/// By what a module is made for. Alone: one view of any kind, whose numbers come from the vertex shader.
-enum class MaskModule : std::uint8_t { any, orthographic, alone };
+/// The module that has the filter, and the one for a single view of any kind, whose numbers come from the vertex shader;
+/// empty where there is none.
+struct MaskCode {
+    std::span<const std::uint32_t> any;
+    std::span<const std::uint32_t> alone;
+};
 
-std::span<const std::uint32_t> fragmentCode(Filter filter, MaskModule module)
+MaskCode fragmentCode(Filter filter)
 {
     using namespace spirv;
-    using Codes = std::array<std::span<const std::uint32_t>, 3>; // by MaskModule
-    const auto of = [&](const Codes& codes) {
-        return codes[static_cast<std::size_t>(module)];
-    };
-#define GN_CODES(NAME)                                                                                                 \
-    {                                                                                                                  \
-        mask_##NAME##_frag, mask_##NAME##_orthographic_frag, mask_##NAME##_one_frag                                    \
-    }
     switch (filter) {
     case Filter::hard:
-        return of(GN_CODES(hard));
+        return {mask_hard_frag, mask_hard_one_frag};
     case Filter::pcss:
-        return of(GN_CODES(pcss));
+        return {mask_pcss_frag, mask_pcss_one_frag};
     case Filter::raymarch:
-        return of(GN_CODES(raymarch));
+        return {mask_raymarch_frag, mask_raymarch_one_frag};
     case Filter::vsm:
-        return of(GN_CODES(vsm));
-    case Filter::lvsm:
-        return of(GN_CODES(lvsm));
-    case Filter::esm:
-        return of({mask_esm_frag, mask_esm_orthographic_frag, {}});
-    case Filter::evsm:
-        return of(GN_CODES(evsm));
     case Filter::msm:
-        return of(GN_CODES(msm));
+        return {mask_moments_frag, mask_moments_one_frag};
+    case Filter::lvsm:
+    case Filter::esm:
+    case Filter::evsm:
+        return {mask_warped_frag, mask_warped_one_frag};
     case Filter::id:
-        return of({mask_id_frag, mask_id_orthographic_frag, {}});
     case Filter::depth_id:
-        return of({mask_depth_id_frag, mask_depth_id_orthographic_frag, {}});
+        return {mask_ids_frag, {}};
     case Filter::pcf:
     case Filter::volumes:   // counts no texels: what it has of a map is never read
     case Filter::smoothies: // pcf, and its edges beside it
     case Filter::automatic: // never comes here: a plan has the one that was chosen
         break;
     }
-    return of(GN_CODES(pcf));
-#undef GN_CODES
+    return {mask_pcf_frag, mask_pcf_one_frag};
+}
+
+Filter filterOf(const MaskPipelineKey& key)
+{
+    return static_cast<Filter>(key.constants.technique.filter);
 }
 
 } // namespace
@@ -63,7 +59,6 @@ std::span<const std::uint32_t> fragmentCode(Filter filter, MaskModule module)
 MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape)
 {
     MaskPipelineKey key;
-    key.filter = options.filter();
     key.constants.technique = pack::techniqueConstants(options);
     key.constants.has_normals = shape.normals ? VK_TRUE : VK_FALSE;
     key.constants.has_smooth = shape.smooth ? VK_TRUE : VK_FALSE;
@@ -97,12 +92,12 @@ MaskPipelines::MaskPipelines(Device& device, const ShadowRendererOptions& option
 VkPipeline MaskPipelines::get(MaskPipelineKey key, VkPipelineLayout layout)
 {
     if (key.told_apart == pack::ToldApart::alone) { // one module for both kinds of view, where there is one
-        const bool pairs = key.filter == Filter::hard || key.filter == Filter::pcf; // mask.frag
-        const bool few_take_it = // so it has no module for one view: shaders/CMakeLists.txt
-            key.filter == Filter::esm || key.filter == Filter::id || key.filter == Filter::depth_id;
-        const bool has_module = vertex_one_ && !few_take_it && (pairs || key.constants.paired == VK_FALSE);
+        const Filter filter = filterOf(key);
+        const bool pairs = filter == Filter::hard || filter == Filter::pcf; // mask.frag
+        const bool has_module =
+            vertex_one_ && !fragmentCode(filter).alone.empty() && (pairs || key.constants.paired == VK_FALSE);
         key.told_apart = has_module ? pack::ToldApart::alone : pack::ToldApart::tests;
-        key.orthographic = key.orthographic && !has_module;
+        key.constants.orthographic = has_module ? VK_FALSE : key.constants.orthographic;
         key.constants.paired = has_module ? key.constants.paired : VK_FALSE;
     }
     const auto found = std::ranges::find(made_, key, &Made::key);
@@ -120,8 +115,8 @@ Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout
     constants.slices_alone = key.told_apart == pack::ToldApart::slices ? VK_TRUE : VK_FALSE;
     const Specialisation specialisation(constants);
     const bool alone = key.told_apart == pack::ToldApart::alone;
-    const MaskModule module = alone ? MaskModule::alone : key.orthographic ? MaskModule::orthographic : MaskModule::any;
-    const ShaderModule fragment = makeShader(device_, fragmentCode(key.filter, module));
+    const MaskCode code = fragmentCode(filterOf(key));
+    const ShaderModule fragment = makeShader(device_, alone ? code.alone : code.any);
     const TwoStages stages = stagesOf(alone ? vertex_one_ : vertex_, fragment, specialisation.info());
     GraphicsState state;
     state.stages = stages;

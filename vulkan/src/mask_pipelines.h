@@ -29,6 +29,7 @@ struct MaskConstants {
     VkBool32 paired = VK_FALSE;         // pack::MaskDraw::paired; of modules for one view alone
     std::uint32_t pixels_per_texel = 1; // DrawnAs::half: 2
     VkBool32 layered = VK_FALSE;        // views may be View::layered
+    VkBool32 orthographic = VK_FALSE;   // pack::MaskDraw::orthographic
 
     bool operator==(const MaskConstants&) const = default;
 };
@@ -41,10 +42,8 @@ enum class DrawnAs : std::uint8_t {
 };
 
 struct MaskPipelineKey {
-    Filter filter = Filter::pcf;
     MaskConstants constants;
     VkFormat format = VK_FORMAT_UNDEFINED; // of the mask
-    bool orthographic = false;             // all views of the draw's lights
     pack::ToldApart told_apart = pack::ToldApart::tests;
     bool shares = false; // pack::MaskDraw::shares: channels of other draws stay as they are
     DrawnAs as = DrawnAs::whole;

@@ -61,7 +61,7 @@ VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& dr
     if (drawsToConverge(plan)) {
         key.constants.confidence = weighsFrames(options) ? VK_TRUE : VK_FALSE;
     }
-    key.orthographic = draw.orthographic;
+    key.constants.orthographic = draw.orthographic ? VK_TRUE : VK_FALSE;
     key.told_apart = draw.told_apart;
     key.constants.paired = draw.paired ? VK_TRUE : VK_FALSE;
     key.shares = draw.shares;
@@ -143,7 +143,7 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
     };
     const auto make = [&] {
         for (const bool orthographic : {true, false}) {
-            key.orthographic = orthographic;
+            key.constants.orthographic = orthographic ? VK_TRUE : VK_FALSE;
             for (const DrawnAs as : waysToDraw(options)) {
                 if (orthographic || what.perspective) {
                     (void)pipelines_.get(drawnAs(key, as), layout_.get());

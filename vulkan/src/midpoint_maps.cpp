@@ -32,7 +32,7 @@ MidpointMaps::MidpointMaps(Device& device, const MapStorage& storage, VkPipeline
       first_sets_(device, std::span(kTwo).first(1), kStage), both_sets_(device, kTwo, kStage),
       layout_(makePipelineLayout(device, both_sets_.layout(), kStage, 0))
 {
-    const ShaderModule vertex = makeShader(device, spirv::restore_vert);
+    const ShaderModule vertex = makeShader(device, spirv::mask_vert);
     const ShaderModule fragment = makeShader(device, spirv::midpoint_frag);
     const TwoStages stages = stagesOf(vertex, fragment);
     GraphicsState state;

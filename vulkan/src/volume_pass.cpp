@@ -41,6 +41,7 @@ struct VolumeMaskConstants {
     VkBool32 has_normals;
     VkBool32 has_smooth;
     VkBool32 is_inside;
+    VkBool32 has_ids;
 };
 
 // Of volume_depth.frag.
@@ -165,11 +166,10 @@ VkPipeline VolumePassRecorder::maskPipeline(const Key& key)
 
 Pipeline VolumePassRecorder::makeMaskPipeline(const Key& key)
 {
-    const ShaderModule fragment =
-        makeShader(device_, key.shape.ids ? spirv::volume_mask_ids_frag : spirv::volume_mask_frag);
-    const Specialisation constants(VolumeMaskConstants{key.shape.normals ? VK_TRUE : VK_FALSE,
-                                                       key.shape.smooth ? VK_TRUE : VK_FALSE,
-                                                       key.inside ? VK_TRUE : VK_FALSE});
+    const ShaderModule fragment = makeShader(device_, spirv::volume_mask_frag);
+    const Specialisation constants(
+        VolumeMaskConstants{key.shape.normals ? VK_TRUE : VK_FALSE, key.shape.smooth ? VK_TRUE : VK_FALSE,
+                            key.inside ? VK_TRUE : VK_FALSE, key.shape.ids ? VK_TRUE : VK_FALSE});
     const TwoStages stages = stagesOf(triangle_, fragment, constants.info());
     VkPipelineDepthStencilStateCreateInfo counted{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     counted.stencilTestEnable = VK_TRUE;
@@ -223,7 +223,8 @@ Pipeline VolumePassRecorder::makeCopyPipeline(VkFormat format, bool smooth)
     return makeGraphicsPipeline(device_, state);
 }
 
-void VolumePassRecorder::writeSets(std::uint32_t slot, const MaskInputs& inputs, const ConstantsRef& constants)
+void VolumePassRecorder::writeSets(std::uint32_t slot, const MaskInputs& inputs, const ConstantsRef& constants,
+                                   const StandIn& no_ids)
 {
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const VkSampler sampler = nearest_.get();
@@ -238,7 +239,8 @@ void VolumePassRecorder::writeSets(std::uint32_t slot, const MaskInputs& inputs,
                                    options * constants.stride),
             DescriptorSets::image(kCountDepth, sampler, inputs.depth, inputs.depth_layout),
             orDepth(kCountNormal, inputs.normal), orDepth(kCountSmooth, inputs.smooth),
-            orDepth(kCountId, inputs.object_id)};
+            DescriptorSets::image(kCountId, sampler,
+                                  inputs.object_id != VK_NULL_HANDLE ? inputs.object_id : no_ids.layer(), kRead)};
         sets_.write(setOf(slot, options), writes);
     }
 }
@@ -331,14 +333,15 @@ void VolumePassRecorder::drawLight(const Job& job, const pack::VolumeDraw& draw)
 }
 
 void VolumePassRecorder::record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan,
-                                const MaskInputs& inputs, const ConstantsRef& constants, const Image& target)
+                                const MaskInputs& inputs, const ConstantsRef& constants, const StandIn& no_ids,
+                                const Image& target)
 {
     const VkExtent2D extent = target.info().extent;
     pack::listVolumeDraws(plan, {extent.width, extent.height}, draws_);
     if (draws_.empty()) {
         return;
     }
-    writeSets(slot, inputs, constants);
+    writeSets(slot, inputs, constants, no_ids);
     device_.beginLabel(commands, "shadow volumes");
     const Job job{commands, slot, plan, inputs, target.info().format};
     for (std::uint32_t layer = 0; layer < target.info().layers; ++layer) {

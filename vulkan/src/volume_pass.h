@@ -5,6 +5,7 @@
 
 #include "descriptors.h"
 #include "device.h"
+#include "stand_in.h"
 
 #include <gnomon/pack/volume_draws.h>
 
@@ -30,7 +31,7 @@ public:
     void warmUp(VkFormat mask_format, std::uint32_t channels, const MaskShape& shape);
     /// All of them, to `target`, which is in COLOR_ATTACHMENT_OPTIMAL and has what the other lights have drawn.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
-                const ConstantsRef& constants, const Image& target);
+                const ConstantsRef& constants, const StandIn& no_ids, const Image& target);
 
 private:
     struct Key {
@@ -65,7 +66,7 @@ private:
     {
         return slot_sets_[slot * options_ + options];
     }
-    void writeSets(std::uint32_t slot, const MaskInputs& inputs, const ConstantsRef& constants);
+    void writeSets(std::uint32_t slot, const MaskInputs& inputs, const ConstantsRef& constants, const StandIn& no_ids);
     void beginLayer(VkCommandBuffer commands, const Image& target, std::uint32_t layer);
     void copyDepth(const Job& job, std::uint32_t layer);
     void countLight(const Job& job, const pack::VolumeDraw& draw);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // GLSL only: for a pass that is made for one technique. What its options decide comes as specialization constants, whose
 // values pack::techniqueConstants() gives, so that a driver compiles what the technique needs and nothing else.
-// Include it before visibility.glsl, and define GNOMON_FILTER as well.
+// Include it before visibility.glsl.
 //
 // Define beforehand, if the default does not suit:
-//   GNOMON_CONSTANT_ID  the first of eight constant_ids (0)
+//   GNOMON_CONSTANT_ID  the first of nine constant_ids (0)
 // It adds a binding to those of visibility.glsl: GNOMON_BINDING + 8, a uniform buffer with the first kFewViews of the
 // GpuViews. Where a frame has one light and few views, the pass reads them from there: pack::fewViewsOf().
 #ifndef GNOMON_TECHNIQUE_CONSTANTS_GLSL
@@ -23,6 +23,9 @@ layout(constant_id = GNOMON_CONSTANT_ID + 5) const int gnomon_moment_layers = 2;
 layout(constant_id = GNOMON_CONSTANT_ID + 6) const int gnomon_depth_holding = 0;   // see gnomon/shared/paired_depth.h
 layout(constant_id = GNOMON_CONSTANT_ID + 7) const uint gnomon_few_view_count = 0; // how many views its one light has; 0: any number of lights and views
 
+layout(constant_id = GNOMON_CONSTANT_ID + 8) const int gnomon_filter = 1; // of choice_numbers.h; with GNOMON_FILTER nothing reads it
+
+#define GNOMON_FILTER_NUMBER gnomon_filter
 #define GNOMON_KERNEL_WIDTH gnomon_kernel_width
 #define GNOMON_DISC_TAPS gnomon_disc_taps
 #define GNOMON_AUTOMATIC_BIAS gnomon_automatic_bias

@@ -6,8 +6,11 @@
 //   GNOMON_SET      descriptor set of the bindings below (0)
 //   GNOMON_BINDING  the first of them (0)
 //   GNOMON_FILTER   GNOMON_FILTER_PCF or another macro of gnomon/shared/choice_numbers.h: the one filter that is compiled,
-//                   which the options must have. Without it all of them are, and GpuRule says which.
-//   GNOMON_ORTHOGRAPHIC_ONLY  all views are orthographic (View::orthographic), which costs less
+//                   which the options must have. Without it all of them are, and GpuRule says which, or the constant of
+//                   technique_constants.glsl
+//   GNOMON_FILTERS  in its place: those filters are compiled whose bits (1 << GNOMON_FILTER_PCF) it has
+//   GNOMON_ORTHOGRAPHIC_ONLY  true, or a constant that says so: all views are orthographic (View::orthographic), which
+//                   costs less
 //   GNOMON_TINTS    true, or a constant that says so: blended casters tint the light, which takes a seventh binding
 //   GNOMON_LAYERED  true, or a constant that says so: options may have MultiDivide::receivers. Without it frustums that
 //                   overlap do not fade over into each other

@@ -26,6 +26,8 @@ namespace gnomon::pack {
 [[nodiscard]] GNOMON_API shared::MomentRule momentRuleOf(const ResolvedOptions& options);
 /// Of filters that compare depths what their maps hold of it (DepthMetricKind) alone; of filterable ones the above.
 [[nodiscard]] GNOMON_API shared::MomentRule readingRuleOf(const ResolvedOptions& options);
+/// The filter that reads these maps: pcf beside smoothies, else the options' own.
+[[nodiscard]] GNOMON_API Filter readingFilter(const ResolvedOptions& options);
 /// What filters id and depth-id go by.
 [[nodiscard]] GNOMON_API shared::IdRule idRuleOf(const ResolvedOptions& options);
 

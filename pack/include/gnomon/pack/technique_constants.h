@@ -20,6 +20,7 @@ struct TechniqueConstants {
     std::int32_t moment_layers = 0;   // of lvsm, else 0
     std::int32_t depth_holding = 0;   // what a texel of depth holds
     std::uint32_t few_views = 0;      // fewViewsOf() of the frame's plan
+    std::int32_t filter = 0;          // readingFilter(), of a module that is compiled for several
 
     bool operator==(const TechniqueConstants&) const = default;
 };

@@ -50,9 +50,8 @@ vec3 cascadeSlice(GpuCascadeLight light, int i)
 
 #ifdef PIXELS
 layout(set = 0, binding = 4) uniform texture2D depths;
-#ifdef GNOMON_OBJECT_IDS
 layout(set = 0, binding = 5) uniform utexture2D object_ids;
-#endif
+layout(constant_id = 0) const bool kHasIds = false; // else object_ids is a stand-in
 
 // A surface that may be shadowed: where it lies on the base map, and how deep.
 struct Seen {
@@ -72,11 +71,9 @@ Seen seenAt(GpuCascadeLight light, ivec2 pixel)
     if (depth == light.reach.x) {
         return seen;
     }
-#ifdef GNOMON_OBJECT_IDS
-    if (texelFetch(object_ids, pixel, 0).x == 0u) {
+    if (kHasIds && texelFetch(object_ids, pixel, 0).x == 0u) {
         return seen;
     }
-#endif
     vec4 ndc = vec4((vec2(pixel) + 0.5) * light.screen.zw * 2.0 - 1.0, depth, 1.0);
     vec4 h = vec4(dot(light.eye_x, ndc), dot(light.eye_y, ndc), dot(light.eye_z, ndc), dot(light.eye_w, ndc));
     vec4 p = vec4(h.xyz / h.w, 1.0);

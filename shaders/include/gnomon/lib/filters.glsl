@@ -1,41 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of filters. A new one is a file in this folder, a number in gnomon/shared/choice_numbers.h, and its lines here.
-// With GNOMON_FILTER defined as one of those numbers that filter alone is compiled.
+// compiled_filters.glsl says which are compiled.
 #ifndef GNOMON_FILTERS_GLSL
 #define GNOMON_FILTERS_GLSL
 #include "../shared/choice_numbers.h"
+#include "compiled_filters.glsl"
 #include "filter_types.glsl"
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_HARD
+#if GNOMON_COMPILES(HARD)
 #include "hard.glsl"
 #endif
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_PCF
+#if GNOMON_COMPILES(PCF)
 #include "pcf.glsl"
 #endif
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_PCSS
+#if GNOMON_COMPILES(PCSS)
 #include "pcss.glsl"
 #endif
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_RAYMARCH
+#if GNOMON_COMPILES(RAYMARCH)
 #include "raymarch.glsl"
 #endif
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_VSM || GNOMON_FILTER == GNOMON_FILTER_MSM
+#if GNOMON_COMPILES(VSM) || GNOMON_COMPILES(MSM)
 #include "moment_penumbra.glsl"
 #endif
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_LVSM
+#if GNOMON_COMPILES(LVSM)
 #include "lvsm.glsl"
 #endif
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_ESM
+#if GNOMON_COMPILES(ESM)
 #include "esm.glsl"
 #endif
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_EVSM
+#if GNOMON_COMPILES(EVSM)
 #include "evsm.glsl"
 #endif
-#if defined(GNOMON_SMOOTHIES) && (!defined(GNOMON_FILTER) || GNOMON_FILTER <= GNOMON_FILTER_PCF)
+#if defined(GNOMON_SMOOTHIES) && GNOMON_COMPILES_KERNELS
 #define GNOMON_READS_SMOOTHIES
 #include "smoothies.glsl"
 #endif
 // Without a receiver's object (light_visibility.glsl) nothing is told apart by ids.
-#if (defined(GNOMON_FILTER) && (GNOMON_FILTER == GNOMON_FILTER_ID || GNOMON_FILTER == GNOMON_FILTER_DEPTH_ID)) ||              \
-    (!defined(GNOMON_FILTER) && (defined(GNOMON_OBJECT) || defined(__cplusplus)))
+#if GNOMON_COMPILES_IDS && (defined(GNOMON_OBJECT) || defined(__cplusplus))
 #define GNOMON_WITH_IDS
 #include "depth_id.glsl"
 #endif
@@ -53,63 +53,56 @@ GN_FN real withSmoothies(real visibility, MapPoint point, FilterInput f)
     return v;
 }
 
-// `filter_number` counts only where more than one filter is compiled.
+// `filter_number`: one of those that are compiled. What is none of them is lit.
 GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
 {
-#if defined(GNOMON_FILTER)
-#if GNOMON_FILTER == GNOMON_FILTER_HARD
-    return withSmoothies(filterHard(point, f), point, f);
-#elif GNOMON_FILTER == GNOMON_FILTER_PCF
-    return withSmoothies(filterPcf(point, f), point, f);
-#elif GNOMON_FILTER == GNOMON_FILTER_PCSS
-    return filterPcss(point, f);
-#elif GNOMON_FILTER == GNOMON_FILTER_RAYMARCH
-    return filterRaymarch(point, f);
-#elif GNOMON_FILTER == GNOMON_FILTER_VSM
-    return applyMoments(kFilterVsm, point, f);
-#elif GNOMON_FILTER == GNOMON_FILTER_LVSM
-    return filterLvsm(point, f);
-#elif GNOMON_FILTER == GNOMON_FILTER_ESM
-    return filterEsm(point, f);
-#elif GNOMON_FILTER == GNOMON_FILTER_EVSM
-    return filterEvsm(point, f);
-#elif GNOMON_FILTER == GNOMON_FILTER_MSM
-    return applyMoments(kFilterMsm, point, f);
-#elif GNOMON_FILTER == GNOMON_FILTER_ID
-    return filterId(point, f);
-#elif GNOMON_FILTER == GNOMON_FILTER_DEPTH_ID
-    return filterDepthId(point, f);
-#endif
-#else
     switch (filter_number) {
+#if GNOMON_COMPILES(HARD)
     case GNOMON_FILTER_HARD:
         return withSmoothies(filterHard(point, f), point, f);
+#endif
+#if GNOMON_COMPILES(PCF)
     case GNOMON_FILTER_PCF:
         return withSmoothies(filterPcf(point, f), point, f);
+#endif
+#if GNOMON_COMPILES(PCSS)
     case GNOMON_FILTER_PCSS:
         return filterPcss(point, f);
+#endif
+#if GNOMON_COMPILES(RAYMARCH)
     case GNOMON_FILTER_RAYMARCH:
         return filterRaymarch(point, f);
+#endif
+#if GNOMON_COMPILES(VSM) || GNOMON_COMPILES(MSM)
     case GNOMON_FILTER_VSM:
-        return applyMoments(kFilterVsm, point, f);
+    case GNOMON_FILTER_MSM:
+        return applyMoments(filter_number, point, f);
+#endif
+#if GNOMON_COMPILES(LVSM)
     case GNOMON_FILTER_LVSM:
         return filterLvsm(point, f);
+#endif
+#if GNOMON_COMPILES(ESM)
     case GNOMON_FILTER_ESM:
         return filterEsm(point, f);
+#endif
+#if GNOMON_COMPILES(EVSM)
     case GNOMON_FILTER_EVSM:
         return filterEvsm(point, f);
-    case GNOMON_FILTER_MSM:
-        return applyMoments(kFilterMsm, point, f);
+#endif
 #ifdef GNOMON_WITH_IDS
+#if GNOMON_COMPILES(ID)
     case GNOMON_FILTER_ID:
         return filterId(point, f);
+#endif
+#if GNOMON_COMPILES(DEPTH_ID)
     case GNOMON_FILTER_DEPTH_ID:
         return filterDepthId(point, f);
+#endif
 #endif
     default:
         return real(1.0);
     }
-#endif
 }
 
 GN_END

@@ -62,8 +62,9 @@ layout(set = GNOMON_SET, binding = GNOMON_FEW_BINDING, std140) uniform GnomonFew
 
 // A pass that is made for one technique has its numbers as constants.
 #ifdef GNOMON_FILTER
+#undef GNOMON_FILTER_NUMBER
 #define GNOMON_FILTER_NUMBER GNOMON_FILTER
-#else
+#elif !defined(GNOMON_FILTER_NUMBER)
 #define GNOMON_FILTER_NUMBER GNOMON_NUMBERS.rule.reading.x
 #endif
 #ifndef GNOMON_KERNEL_WIDTH
@@ -133,7 +134,7 @@ float lookup_confidence; // less than 0: no map was asked
 #ifndef GNOMON_SMOOTH
 #define GNOMON_SMOOTH true
 #endif
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER <= GNOMON_FILTER_RAYMARCH
+#if GNOMON_COMPILES_DEPTHS
 #define GNOMON_ASKS_GRAZED // filters that compare the depths of a map
 #endif
 

@@ -10,6 +10,7 @@
 #define GNOMON_MAP_TEXTURE_GLSL
 #include "../shared/gpu_structs.h"
 #include "../shared/choice_numbers.h"
+#include "compiled_filters.glsl"
 #include "../shared/map_blocks.h"
 #include "../shared/paired_depth.h"
 // A pass in software whose sampler of these maps is a nearest one may define GNOMON_NEAREST_MAPS, a constant: see
@@ -53,23 +54,20 @@ vec4 mapGather(vec2 corner, float layer, float part)
 }
 
 // What some filters have beside a map: blocks, or smoothies.
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_PCSS || GNOMON_FILTER == GNOMON_FILTER_RAYMARCH || \
-    (defined(GNOMON_SMOOTHIES) && GNOMON_FILTER <= GNOMON_FILTER_PCF)
+#if GNOMON_COMPILES(PCSS) || GNOMON_COMPILES(RAYMARCH) || (defined(GNOMON_SMOOTHIES) && GNOMON_COMPILES_KERNELS)
 layout(set = GNOMON_MAP_SET, binding = GNOMON_BLOCKS_BINDING) uniform usampler2DArray gnomon_blocks;
 #endif
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_PCSS || GNOMON_FILTER == GNOMON_FILTER_RAYMARCH
+#if GNOMON_COMPILES(PCSS) || GNOMON_COMPILES(RAYMARCH)
 vec2 mapBlock(vec2 block, int level, float layer)
 {
     return blockDepths(int(texelFetch(gnomon_blocks, ivec3(block, layer), level - 1).x));
 }
 #endif
-#ifdef GNOMON_SMOOTHIES
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER <= GNOMON_FILTER_PCF
+#if defined(GNOMON_SMOOTHIES) && GNOMON_COMPILES_KERNELS
 int mapSmoothie(vec2 texel, float layer)
 {
     return int(texelFetch(gnomon_blocks, ivec3(texel, layer), 0).x);
 }
-#endif
 #endif
 
 vec4 mapMoments(vec2 texel, float level, float layer)

@@ -28,9 +28,9 @@ GN_CONST real kLeastShare = real(0.1);
 
 // The point of the receiver's plane that is at a place on the map, or at the nearest one within the tile. A plane is off
 // by what its normal is, the more the farther away.
-GN_FN MapPoint pointOnPlane(MapPoint point, FilterInput f, real2 place)
+GN_FN MapPoint pointOnPlane(MapPoint point, FilterInput f, real level, real2 place)
 {
-    real2 texel = keepInside(place, samplingLevel(f), f.tile);
+    real2 texel = keepInside(place, level, f.tile);
     real2 at = texel - point.texel;
     real w = max(real(1.0) + dot(point.w_slope, at), real(0.05));
     MapPoint q = point;
@@ -41,9 +41,13 @@ GN_FN MapPoint pointOnPlane(MapPoint point, FilterInput f, real2 place)
     return q;
 }
 
-GN_FN Occluders tapOccluders(int filter_number, MapPoint q, FilterInput f)
+GN_FN Occluders tapOccluders(int filter_number, MapPoint q, FilterInput f, real level)
 {
-    return filter_number == kFilterMsm ? msmOccluders(q, f) : vsmOccluders(q, f);
+    real4 stored = sampleMoments(q, f, f.layer, level);
+    if (filter_number == kFilterMsm) {
+        return msmOccluders(q, f, level, stored);
+    }
+    return vsmOccluders(q, f, stored);
 }
 
 // Half the width on the map of the cone's cross-section at `s`, texels.
@@ -54,7 +58,7 @@ GN_FN real coneWidth(RayCone cone, MapPoint point, real s)
 }
 
 // How far along the cone the mean occluder is; 0: there is none.
-GN_FN real occluderReach(int filter_number, MapPoint point, FilterInput f, RayCone cone, ConeNoise noise)
+GN_FN real occluderReach(int filter_number, MapPoint point, FilterInput f, real level, RayCone cone, ConeNoise noise)
 {
     real widest = coneReach(cone, real(0.0), kDiscEnd);
     real widest_texels = coneWidth(cone, point, widest);
@@ -65,8 +69,8 @@ GN_FN real occluderReach(int filter_number, MapPoint point, FilterInput f, RayCo
         real2 at = pointOfLight(noise, i, kMomentSearchTaps);
         real r2 = dot(at, at); // a share of the taps lies within it; they are moved to its square
         at = at * (r2 * length(at));
-        MapPoint q = pointOnPlane(point, f, coneTexel(cone, widest, at));
-        Occluders o = tapOccluders(filter_number, q, f);
+        MapPoint q = pointOnPlane(point, f, level, coneTexel(cone, widest, at));
+        Occluders o = tapOccluders(filter_number, q, f, level);
         real depth = max(min(q.depth, real(1.0)) - o.height, real(0.0)); // nothing is drawn before 0
         real height = point.depth - depth;
         real here = coneWidth(cone, point, coneReach(cone, depth, kDiscEnd));
@@ -89,9 +93,10 @@ GN_FN real applyMoments(int filter_number, MapPoint point, FilterInput f)
     bool follows_light = hasFlag(f.moments.flags, kMomentPenumbra);
     RayCone cone = rayCone(point, f);
     ConeNoise noise = coneNoise(noisePlace(f));
+    real level = samplingLevel(f);
     real s = real(0.0);
     if (follows_light) {
-        s = occluderReach(filter_number, point, f, cone, noise);
+        s = occluderReach(filter_number, point, f, level, cone, noise);
     }
     int taps = follows_light ? kMomentTaps : 1;
     real lit = real(0.0);
@@ -101,10 +106,16 @@ GN_FN real applyMoments(int filter_number, MapPoint point, FilterInput f)
         bool faces = true;
         if (follows_light) {
             real2 at = pointOfLight(noise, i, kMomentTaps);
-            q = pointOnPlane(point, f, coneTexel(cone, s, at));
+            q = pointOnPlane(point, f, level, coneTexel(cone, s, at));
             faces = dot(cone.facing, real3(real(1.0), at.x, at.y)) > real(0.0);
         }
-        real v = filter_number == kFilterMsm ? filterMsm(q, f) : filterVsm(q, f);
+        real4 stored = sampleMoments(q, f, f.layer, level);
+        real v = real(1.0);
+        if (filter_number == kFilterMsm) {
+            v = filterMsm(q, f, level, stored);
+        } else {
+            v = filterVsm(q, f, stored);
+        }
         lit += faces ? v : real(0.0);
         ++i;
     } while (i < taps);

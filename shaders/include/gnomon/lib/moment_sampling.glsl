@@ -33,21 +33,26 @@ GN_FN real samplingLevel(FilterInput f)
     return footprintReads(f.footprint_x, f.footprint_y, f.coarsest, f.moments.anisotropy).level;
 }
 
-GN_FN real4 sampleMoments(MapPoint point, FilterInput f, real layer)
+// `level`: samplingLevel().
+GN_FN real4 sampleMoments(MapPoint point, FilterInput f, real layer, real level)
 {
-    if (f.moments.sampling == kSamplingNearest)
-        return readMoments(floor(point.texel) + real2(real(0.5)), real(0.0), f, layer);
-    if (f.moments.sampling == kSamplingBilinear)
-        return readMoments(point.texel, real(0.0), f, layer);
-    if (f.moments.sampling == kSamplingTrilinear)
-        return readMoments(point.texel, footprintLevel(f.footprint_x, f.footprint_y, f.coarsest), f, layer);
+    if (f.moments.sampling <= kSamplingTrilinear) {
+        bool nearest = f.moments.sampling == kSamplingNearest;
+        real2 texel = nearest ? floor(point.texel) + real2(real(0.5)) : point.texel;
+        return readMoments(texel, level, f, layer);
+    }
     FootprintReads r = footprintReads(f.footprint_x, f.footprint_y, f.coarsest, f.moments.anisotropy);
     real4 sum = real4(real(0.0));
     for (int i = 0; i < r.reads; ++i) {
         real2 offset = r.step * (real(i) + real(0.5) - real(0.5) * real(r.reads));
-        sum += readMoments(point.texel + offset, r.level, f, layer);
+        sum += readMoments(point.texel + offset, level, f, layer);
     }
     return sum / real(r.reads);
+}
+
+GN_FN real4 sampleMoments(MapPoint point, FilterInput f, real layer)
+{
+    return sampleMoments(point, f, layer, samplingLevel(f));
 }
 
 GN_END

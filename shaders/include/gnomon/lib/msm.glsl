@@ -21,10 +21,9 @@ GN_BEGIN
 GN_CONST real kVarianceOfRead = real(1.0) / real(3.0);
 
 // Standard deviation of the receiver's own plane in the kernel, in the depth metric.
-GN_FN real planeDeviation(MapPoint point, FilterInput f)
+GN_FN real planeDeviation(MapPoint point, FilterInput f, real level)
 {
     real2 slope = point.depth_slope - point.w_slope * point.depth; // of depth itself, per texel
-    real level = samplingLevel(f);
     real variance = f.moments.min_variance_texels * f.moments.min_variance_texels + kVarianceOfRead * exp2(real(2.0) * level);
     variance = variance * dot(slope, slope);
     if (f.moments.sampling > kSamplingTrilinear) {
@@ -50,27 +49,26 @@ GN_FN real msmAllowance(real4 b, real t, real deviation)
 }
 
 // The coordinate that a receiver is tested at, with the moments that were read.
-GN_FN real msmCoordinate(MapPoint point, FilterInput f, real4 stored)
+GN_FN real msmCoordinate(MapPoint point, FilterInput f, real level, real4 stored)
 {
     int flags = f.moments.flags;
     real t = momentCoordinate(receiverDepth(point.depth, flags, f.near_over_far), flags);
-    real before = point.depth - planeDeviation(point, f);
+    real before = point.depth - planeDeviation(point, f, level);
     real deviation = t - momentCoordinate(receiverDepth(before, flags, f.near_over_far), flags);
     real4 b = hasFlag(flags, kMomentQuantised) ? momentsOfQuantised(stored) : stored;
     return t - msmAllowance(b, t, deviation);
 }
 
-GN_FN Occluders msmOccluders(MapPoint point, FilterInput f)
+// `level`: samplingLevel(), `stored`: sampleMoments() at the point; here and below.
+GN_FN Occluders msmOccluders(MapPoint point, FilterInput f, real level, real4 stored)
 {
-    real4 stored = sampleMoments(point, f, f.layer);
     Hankel h = factorise(usableMoments(stored, f.moments), leastLastPivot(f.moments.flags));
-    return hamburgerOccluders(h, msmCoordinate(point, f, stored), momentScale(f.moments.flags));
+    return hamburgerOccluders(h, msmCoordinate(point, f, level, stored), momentScale(f.moments.flags));
 }
 
-GN_FN real filterMsm(MapPoint point, FilterInput f)
+GN_FN real filterMsm(MapPoint point, FilterInput f, real level, real4 stored)
 {
-    real4 stored = sampleMoments(point, f, f.layer);
-    return shapeVisibility(msmVisibility(stored, msmCoordinate(point, f, stored), f.moments), f.moments);
+    return shapeVisibility(msmVisibility(stored, msmCoordinate(point, f, level, stored), f.moments), f.moments);
 }
 
 GN_END

@@ -11,10 +11,10 @@
 #include "../shared/paraboloid.h"
 // Whether views may be paraboloids, a constant. The includer may know.
 #ifndef GNOMON_PARABOLOID
-#if defined(GNOMON_ORTHOGRAPHIC_ONLY) || (defined(GNOMON_FILTER) && GNOMON_FILTER != GNOMON_FILTER_HARD && GNOMON_FILTER != GNOMON_FILTER_PCF)
-#define GNOMON_PARABOLOID false
+#if GNOMON_COMPILES_KERNELS
+#define GNOMON_PARABOLOID !GNOMON_ORTHOGRAPHIC_ONLY
 #else
-#define GNOMON_PARABOLOID true
+#define GNOMON_PARABOLOID false
 #endif
 #endif
 // Whether it is known already that a view's slice and sector hold a point, a constant.
@@ -32,11 +32,9 @@ GN_FN MapRows rowsOf(GpuView view)
     rows.metric = real4(view.metric);
     rows.texel_m = real(view.scale.x);
     rows.range_m = real(view.scale.y);
-#ifdef GNOMON_ORTHOGRAPHIC_ONLY
     rows.plane_x = real4(view.plane_x);
     rows.plane_y = real4(view.plane_y);
     rows.plane_w = real4(view.plane_w);
-#endif
     return rows;
 }
 
@@ -127,11 +125,7 @@ GN_FN bool viewContains(GpuView view, real3 p)
     if (GNOMON_PARABOLOID && view.plane_y.w > 0.0) {
         return is_served; // its half space is the disc, around which there is room for taps
     }
-#ifdef GNOMON_ORTHOGRAPHIC_ONLY
-    real w = real(1.0);
-#else
-    real w = dotRow(real4(view.w), p);
-#endif
+    real w = GNOMON_ORTHOGRAPHIC_ONLY ? real(1.0) : dotRow(real4(view.w), p);
     real x = dotRow(real4(view.x), p);
     real y = dotRow(real4(view.y), p);
     real4 tile = real4(view.tile) * w;

@@ -7,17 +7,16 @@
 #include "moment_sampling.glsl"
 GN_BEGIN
 
-GN_FN Occluders vsmOccluders(MapPoint point, FilterInput f)
+// `m`: sampleMoments() at the point; here and below.
+GN_FN Occluders vsmOccluders(MapPoint point, FilterInput f, real4 m)
 {
-    real4 m = sampleMoments(point, f, f.layer);
     real t = momentCoordinate(receiverDepth(point.depth, f.moments.flags, f.near_over_far), f.moments.flags);
     real least = leastVariance(f.moments, point.texel_depth, real(1.0));
     return chebyshevOccluders(m.x, m.y, t, least, momentScale(f.moments.flags));
 }
 
-GN_FN real filterVsm(MapPoint point, FilterInput f)
+GN_FN real filterVsm(MapPoint point, FilterInput f, real4 m)
 {
-    real4 m = sampleMoments(point, f, f.layer);
     real d = receiverDepth(point.depth, f.moments.flags, f.near_over_far);
     real stretch = metricStretch(point.depth, f.moments.flags, f.near_over_far);
     real least = leastVariance(f.moments, point.texel_depth, stretch);

@@ -6,6 +6,10 @@
 #ifndef GNOMON_BIAS_H
 #define GNOMON_BIAS_H
 #include "portability.h"
+// Whether all maps are orthographic, a constant: then w is 1 everywhere. The includer may know.
+#ifndef GNOMON_ORTHOGRAPHIC_ONLY
+#define GNOMON_ORTHOGRAPHIC_ONLY false
+#endif
 GN_BEGIN
 
 // Rows that take a point (p, 1) to the map: atlas texels (x / w, y / w) and the depth metric. w is (0, 0, 0, 1) for an
@@ -18,13 +22,11 @@ struct MapRows {
     real4 metric;
     real texel_m; // a texel's longest side in metres; of use for an orthographic map only
     real range_m; // metres from metric 0 to metric 1
-#ifdef GNOMON_ORTHOGRAPHIC_ONLY
-    // What receiverPlane() comes down to when w is constant, in xyz: the cross products of the rows' gradients,
-    // metric with y, x with metric, x with y. In plane_w.w: the least determinant that it divides by.
+    // With GNOMON_ORTHOGRAPHIC_ONLY: receiverPlane() where w is constant. xyz are the cross products of the rows'
+    // gradients: metric with y, x with metric, x with y. plane_w.w is the least determinant that it divides by.
     real4 plane_x;
     real4 plane_y;
     real4 plane_w;
-#endif
 };
 
 struct BiasRule {
@@ -91,11 +93,7 @@ GN_FN real3 gradientOf(real4 row)
 
 GN_FN real mapW(MapRows map, real3 p)
 {
-#ifdef GNOMON_ORTHOGRAPHIC_ONLY
-    return real(1.0);
-#else
-    return dotRow(map.w, p);
-#endif
+    return GNOMON_ORTHOGRAPHIC_ONLY ? real(1.0) : dotRow(map.w, p);
 }
 
 GN_FN real2 texelAt(MapRows map, real3 p, real w)
@@ -118,14 +116,15 @@ GN_FN real2 texelAt(MapRows map, real3 p, real w)
 GN_FN void receiverPlane(MapRows map, real3 n, real2 texel, real w, real m, GN_OUT(real2) depth_slope,
                          GN_OUT(real2) w_slope, GN_OUT(real) rise)
 {
-#ifdef GNOMON_ORTHOGRAPHIC_ONLY
-    real det = dot(n, gradientOf(map.plane_w));
-    real tiny = map.plane_w.w;
-    real inverse = real(1.0) / (abs(det) > tiny ? det : (det < real(0.0) ? -tiny : tiny));
-    w_slope = real2(0.0);
-    depth_slope = real2(dot(n, gradientOf(map.plane_x)), dot(n, gradientOf(map.plane_y))) * inverse;
-    rise = dot(gradientOf(map.metric), gradientOf(map.plane_w)) * inverse;
-#else
+    if (GNOMON_ORTHOGRAPHIC_ONLY) {
+        real det = dot(n, gradientOf(map.plane_w));
+        real tiny = map.plane_w.w;
+        real inverse = real(1.0) / (abs(det) > tiny ? det : (det < real(0.0) ? -tiny : tiny));
+        w_slope = real2(0.0);
+        depth_slope = real2(dot(n, gradientOf(map.plane_x)), dot(n, gradientOf(map.plane_y))) * inverse;
+        rise = dot(gradientOf(map.metric), gradientOf(map.plane_w)) * inverse;
+        return;
+    }
     real3 gw = gradientOf(map.w);
     real3 gx = gradientOf(map.x) - gw * texel.x;
     real3 gy = gradientOf(map.y) - gw * texel.y;
@@ -139,7 +138,6 @@ GN_FN void receiverPlane(MapRows map, real3 n, real2 texel, real w, real m, GN_O
     real3 gm = gradientOf(map.metric) * w;
     depth_slope = w_slope * m + real2(dot(gm, a), dot(gm, b)) * inverse;
     rise = dot(gradientOf(map.metric), cross(gx, gy)) * inverse;
-#endif
 }
 
 // A texel's longest extent across the light where the map has the given w, metres. A texel is a ray of light, so the
@@ -147,9 +145,9 @@ GN_FN void receiverPlane(MapRows map, real3 n, real2 texel, real w, real m, GN_O
 // at most one over their least singular value: the greatest over their determinant.
 GN_FN real texelExtent(MapRows map, real2 texel, real w)
 {
-#ifdef GNOMON_ORTHOGRAPHIC_ONLY
-    return map.texel_m;
-#else
+    if (GNOMON_ORTHOGRAPHIC_ONLY) {
+        return map.texel_m;
+    }
     real3 gx = gradientOf(map.x) - gradientOf(map.w) * texel.x;
     real3 gy = gradientOf(map.y) - gradientOf(map.w) * texel.y;
     real xx = dot(gx, gx);
@@ -158,7 +156,6 @@ GN_FN real texelExtent(MapRows map, real2 texel, real w)
     real half_difference = real(0.5) * (xx - yy);
     real greatest = real(0.5) * (xx + yy) + sqrt(half_difference * half_difference + xy * xy);
     return w * sqrt(greatest) / length(cross(gx, gy));
-#endif
 }
 
 // `p` in the space of the rows, `n` its unit geometric normal, which faces the light.

@@ -3,20 +3,8 @@
 // (pack/src/choice_numbers.cpp).
 #ifndef GNOMON_CHOICE_NUMBERS_H
 #define GNOMON_CHOICE_NUMBERS_H
+#include "filter_numbers.h"
 #include "portability.h"
-
-// gnomon::Filter. Macros, because the preprocessor chooses by them.
-#define GNOMON_FILTER_HARD 0
-#define GNOMON_FILTER_PCF 1
-#define GNOMON_FILTER_PCSS 2
-#define GNOMON_FILTER_RAYMARCH 3
-#define GNOMON_FILTER_VSM 4
-#define GNOMON_FILTER_LVSM 5
-#define GNOMON_FILTER_ESM 6
-#define GNOMON_FILTER_EVSM 7
-#define GNOMON_FILTER_MSM 8
-#define GNOMON_FILTER_ID 9
-#define GNOMON_FILTER_DEPTH_ID 10
 
 GN_BEGIN
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which filters are compiled: with GNOMON_FILTER defined as a number of filter_numbers.h that one; with GNOMON_FILTERS those
+// whose bits (1 << number) it has; else all.
+#ifndef GNOMON_COMPILED_FILTERS_GLSL
+#define GNOMON_COMPILED_FILTERS_GLSL
+#include "../shared/filter_numbers.h"
+#ifdef GNOMON_FILTER
+#define GNOMON_FILTERS (1 << GNOMON_FILTER)
+#endif
+#ifndef GNOMON_FILTERS
+#define GNOMON_FILTERS ((1 << 11) - 1)
+#endif
+// For #if: GNOMON_COMPILES(PCF).
+#define GNOMON_COMPILES(NAME) (((GNOMON_FILTERS >> GNOMON_FILTER_##NAME) & 1) != 0)
+// Some filter that compares the depths of a map; one that does so over a fixed kernel; one that compares ids.
+#define GNOMON_COMPILES_DEPTHS ((GNOMON_FILTERS & ((1 << (GNOMON_FILTER_RAYMARCH + 1)) - 1)) != 0)
+#define GNOMON_COMPILES_KERNELS (GNOMON_COMPILES(HARD) || GNOMON_COMPILES(PCF))
+#define GNOMON_COMPILES_IDS (GNOMON_COMPILES(ID) || GNOMON_COMPILES(DEPTH_ID))
+#endif

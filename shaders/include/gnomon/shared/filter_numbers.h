@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// The numbers of gnomon::Filter. Macros, because the preprocessor chooses by them; choice_numbers.h has them as constants.
+#ifndef GNOMON_FILTER_NUMBERS_H
+#define GNOMON_FILTER_NUMBERS_H
+#define GNOMON_FILTER_HARD 0
+#define GNOMON_FILTER_PCF 1
+#define GNOMON_FILTER_PCSS 2
+#define GNOMON_FILTER_RAYMARCH 3
+#define GNOMON_FILTER_VSM 4
+#define GNOMON_FILTER_LVSM 5
+#define GNOMON_FILTER_ESM 6
+#define GNOMON_FILTER_EVSM 7
+#define GNOMON_FILTER_MSM 8
+#define GNOMON_FILTER_ID 9
+#define GNOMON_FILTER_DEPTH_ID 10
+
+#endif
