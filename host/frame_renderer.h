@@ -183,7 +183,7 @@ public:
     [[nodiscard]] ImageF readMap(std::uint32_t layer);
 
     // Of the last frame, which is waited for where the GPU knows the answer.
-    /// Its plan; views with View::gpu_cascade as the GPU has fitted them.
+    /// Its plan; views with ViewProjection::gpu_cascade as the GPU has fitted them.
     [[nodiscard]] const Plan& plan() const;
     /// Whether the mask's pass is given object ids: where some object does not receive, or the filter tells objects
     /// apart.

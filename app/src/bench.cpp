@@ -181,6 +181,7 @@ std::optional<BenchFigures> earlierRun(const Settings& settings, const BenchRun&
     }
     BenchFigures earlier = readBenchFigures(settings.against);
     std::vector<std::string> names;
+    names.reserve(techniques.size());
     for (const Settings& technique : techniques) {
         names.push_back(describeTechnique(technique));
     }

@@ -121,7 +121,7 @@ Json writePictures(ReportFolder& folder, const CompareResult& result, std::size_
 
 } // namespace
 
-ReportFolder::ReportFolder(fs::path folder, std::vector<std::string> files)
+ReportFolder::ReportFolder(const fs::path& folder, std::vector<std::string> files)
     : path_(folderPath(folder)), files_(std::move(files))
 {
     const std::string what = "writing a report to " + folder.string();

@@ -23,7 +23,7 @@ class ReportFolder {
 public:
     /// `files`: what will be written. Throws Error, before an hour's work, when the folder can be neither used nor
     /// made, or holds one of these files and it is not of an earlier report, which lists its files in result.json.
-    ReportFolder(std::filesystem::path folder, std::vector<std::string> files);
+    ReportFolder(const std::filesystem::path& folder, std::vector<std::string> files);
     ~ReportFolder();
     ReportFolder(const ReportFolder&) = delete;
     ReportFolder& operator=(const ReportFolder&) = delete;

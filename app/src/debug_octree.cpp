@@ -165,7 +165,7 @@ Image8 octreeView(const Drawn& drawn)
     std::set<std::uint32_t> casters;
     const LightPlan& light = drawn.plan.lights[drawn.light];
     for (const View& view : std::span(drawn.plan.views).subspan(light.first_view, light.view_count)) {
-        const auto drawn_there = std::span(drawn.plan.casters).subspan(view.first_caster, view.caster_count);
+        const auto drawn_there = std::span(drawn.plan.casters).subspan(view.casters.first, view.casters.count);
         casters.insert(drawn_there.begin(), drawn_there.end());
     }
     for (const std::uint32_t caster : casters) {

@@ -59,8 +59,9 @@ std::vector<std::uint32_t> kindsOf(std::span<const View> views)
     std::uint32_t count = 0;
     for (const View& view : views) {
         const auto twin = std::find_if(views.begin(), views.end(), [&](const View& other) {
-            return view.sun == SunPosition::later && other.sun == SunPosition::earlier &&
-                   other.slice.begin_m == view.slice.begin_m && other.slice.end_m == view.slice.end_m;
+            return view.serves.sun == SunPosition::later && other.serves.sun == SunPosition::earlier &&
+                   other.serves.slice.begin_m == view.serves.slice.begin_m &&
+                   other.serves.slice.end_m == view.serves.slice.end_m;
         });
         kinds.push_back(twin == views.end() ? count++ : kinds[static_cast<std::size_t>(twin - views.begin())]);
     }
@@ -69,7 +70,7 @@ std::vector<std::uint32_t> kindsOf(std::span<const View> views)
 
 std::string nameOfView(const View& view, std::uint32_t index)
 {
-    const ViewSlice& slice = view.slice;
+    const ViewSlice& slice = view.serves.slice;
     std::string name = fmt::format("map {}: ", index);
     if (slice.bounded()) {
         name += slice.across ? "across the light " : slice.isRatio() ? "eye / lamp depth " : "";
@@ -77,7 +78,7 @@ std::string nameOfView(const View& view, std::uint32_t index)
         name += std::isfinite(slice.end_m) ? fmt::format("to {:.3g} ", slice.end_m) : "";
         name.insert(name.size() - 1, slice.isRatio() ? "," : " m,");
     }
-    return fmt::format("{}texel {:.3g} m{}", name, view.texel_m, view.parallel ? "" : " at 1 m");
+    return fmt::format("{}texel {:.3g} m{}", name, view.projection.texel_m, view.projection.parallel ? "" : " at 1 m");
 }
 
 } // namespace
@@ -140,7 +141,7 @@ Image8 fadedView(const Drawn& drawn)
     for (std::uint32_t y = 0; y < shares.height; ++y) {
         for (std::uint32_t x = 0; x < shares.width; ++x) {
             for (std::size_t i = 0; *reached.pixel(x, y) != 0 && i < views.size(); ++i) {
-                joined.pixel(x, y)[views[i].faded_in < 1.0 ? 1 : 0] += shares.pixel(x, y)[i];
+                joined.pixel(x, y)[views[i].serves.faded_in < 1.0 ? 1 : 0] += shares.pixel(x, y)[i];
             }
         }
     }
@@ -148,7 +149,8 @@ Image8 fadedView(const Drawn& drawn)
     legend.title = "What fades in";
     legend.subtitle = "mixed by what each counts for; grey: no map, or out of reach";
     legend.kinds = {"maps that were there", "maps that fade in over them"};
-    const auto coming = std::count_if(views.begin(), views.end(), [](const View& view) { return view.faded_in < 1.0; });
+    const auto coming =
+        std::count_if(views.begin(), views.end(), [](const View& view) { return view.serves.faded_in < 1.0; });
     notice(fmt::format("light {}: {} of {} maps fade in", drawn.shot.lights[drawn.light].name, coming, views.size()));
     return lab::tintedPicture(drawn.picture.colour, joined, legend);
 }
@@ -218,7 +220,7 @@ Image8 stepsView(const Drawn& drawn)
     for (std::uint32_t y = 0; y < shares.height; ++y) {
         for (std::uint32_t x = 0; x < shares.width; ++x) {
             for (std::uint32_t i = 0; i < light.view_count; ++i) {
-                const bool later = drawn.plan.views[light.first_view + i].sun == SunPosition::later;
+                const bool later = drawn.plan.views[light.first_view + i].serves.sun == SunPosition::later;
                 positions.pixel(x, y)[later ? 1 : 0] += shares.pixel(x, y)[i];
             }
         }

@@ -27,9 +27,9 @@ namespace {
 std::uint32_t viewOf(const Plan& plan, std::uint32_t light, const glm::dvec3& point_ws)
 {
     for (const View& view : viewsOf(plan, light, strongerPosition(plan.lights[light].steps))) {
-        const glm::dvec4 clip = view.clip_from_world * glm::dvec4(point_ws, 1.0);
+        const glm::dvec4 clip = view.projection.clip_from_world * glm::dvec4(point_ws, 1.0);
         const bool inside = clip.w > 0.0 && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w;
-        if (inside && view.slice.holds(point_ws) && view.sector.holds(point_ws)) {
+        if (inside && view.serves.slice.holds(point_ws) && view.serves.sector.holds(point_ws)) {
             return static_cast<std::uint32_t>(&view - plan.views.data());
         }
     }
@@ -97,13 +97,14 @@ Image8 layersPicture(const Drawn& drawn)
 /// layer, of others blurred if they blur.
 lab::MapPanel panelOf(const Drawn& drawn, const ResolvedOptions& options, const View& view)
 {
-    const Tile& tile = view.tile;
+    const Tile& tile = view.place.tile;
     const ImageF map = drawn.renderer.readMap(tile.layer * imageLayersPerMap(options.filter(), options.moments()));
     const bool has_ids = options.filter() == Filter::id;
     lab::MapPanel panel{"", ImageF(tile.width, tile.height, 1)};
     for (std::uint32_t y = 0; y < tile.height; ++y) {
         for (std::uint32_t x = 0; x < tile.width; ++x) {
-            const float stored = pack::mapDepth(options, {map.pixel(tile.x + x, tile.y + y), map.channels}, view.part);
+            const float stored =
+                pack::mapDepth(options, {map.pixel(tile.x + x, tile.y + y), map.channels}, view.place.part);
             *panel.values.pixel(x, y) =
                 has_ids ? stored * static_cast<float>(idsOf(options.format()))
                         : static_cast<float>(metresOf(view, options.moments(), static_cast<double>(stored)));
@@ -137,7 +138,7 @@ Image8 mapsPicture(const Drawn& drawn)
     const bool has_ids = options.filter() == Filter::id;
     std::vector<lab::MapPanel> panels;
     for (const View& view : views) {
-        if (view.tile.width > 0) {
+        if (view.place.tile.width > 0) {
             panels.push_back(panelOf(drawn, options, view));
             panels.back().name = fmt::format("{}, map {} of {}", name, panels.size(), views.size());
         }
@@ -148,7 +149,7 @@ Image8 mapsPicture(const Drawn& drawn)
         legend.subtitle = "the object that is nearest to the light; 0: none";
         legend.low = "ids";
     } else {
-        const bool is_parallel = views.front().parallel;
+        const bool is_parallel = views.front().projection.parallel;
         if (is_parallel) {
             measureFromNearest(panels);
         }

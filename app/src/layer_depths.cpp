@@ -10,7 +10,7 @@ namespace {
 
 bool storesZOverW(const View& view, const MomentOptions& options)
 {
-    return options.metric == DepthMetricKind::z_over_w && !view.parallel;
+    return options.metric == DepthMetricKind::z_over_w && !view.projection.parallel;
 }
 
 } // namespace
@@ -19,16 +19,16 @@ double storedDepth(const View& view, const MomentOptions& options, const glm::dv
 {
     const glm::dvec4 point(point_ws, 1.0);
     if (storesZOverW(view, options)) {
-        const glm::dvec4 clip = view.clip_from_world * point;
+        const glm::dvec4 clip = view.projection.clip_from_world * point;
         return std::clamp(clip.z / clip.w, 0.0, 1.0);
     }
-    return std::clamp(glm::dot(view.metric.metric_ws, point), 0.0, 1.0);
+    return std::clamp(glm::dot(view.projection.metric.metric_ws, point), 0.0, 1.0);
 }
 
 double metresOf(const View& view, const MomentOptions& options, double stored)
 {
-    const double near_m = view.metric.near_m;
-    const double far_m = view.metric.far_m;
+    const double near_m = view.projection.metric.near_m;
+    const double far_m = view.projection.metric.far_m;
     if (storesZOverW(view, options)) {
         return near_m * far_m / (far_m - stored * (far_m - near_m));
     }

@@ -87,6 +87,7 @@ std::vector<double> numbersOf(const Setting& setting, std::string_view text)
         refuse(setting, text, numbersText(setting, ""));
     }
     std::vector<double> numbers;
+    numbers.reserve(pieces.size());
     for (const std::string_view piece : pieces) {
         numbers.push_back(realOf(setting, text, piece));
     }

@@ -24,17 +24,18 @@ constexpr double kLeastPads = 32.0;
 
 bool isFinite(const View& view)
 {
-    double sum = view.texel_m + view.metric.near_m + view.metric.far_m;
+    double sum = view.projection.texel_m + view.projection.metric.near_m + view.projection.metric.far_m;
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) {
-            sum += std::abs(view.clip_from_world[column][row]);
+            sum += std::abs(view.projection.clip_from_world[column][row]);
         }
-        sum += std::abs(view.metric.metric_ws[column]);
+        sum += std::abs(view.projection.metric.metric_ws[column]);
     }
     for (int axis = 0; axis < 3; ++axis) {
-        sum += std::abs(view.light_place_ws[axis]);
+        sum += std::abs(view.projection.light_place_ws[axis]);
     }
-    return std::isfinite(sum) && view.texel_m > 0.0 && view.metric.far_m > view.metric.near_m;
+    return std::isfinite(sum) && view.projection.texel_m > 0.0 &&
+           view.projection.metric.far_m > view.projection.metric.near_m;
 }
 
 FrustumPlanner::Lie FrustumPlanner::lieOf(const FrustumInput& input)
@@ -187,7 +188,7 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     const Warp warp = drawnWarp(input, lie);
     MapFrame shown = frameOfWarp(input, lie, warp);
     shown.centre += shown.texel * input.grid_move_texels;
-    view.light_reach = lie.light_reach;
+    view.projection.light_reach = lie.light_reach;
     const FitReport fit = reportOf(warp, shown, region_.outline());
 
     const CasterReach reach{steady ? LightRect{shown.centre - shown.half, shown.centre + shown.half} : region_.rect(),
@@ -200,23 +201,23 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
         return found;
     }
 
-    view.slice = input.slice.depth;
-    view.sector = input.slice.sector;
-    view.faded_in = input.slice.faded_in;
-    view.layered = input.slice.layered;
-    view.rim = input.slice.rim;
-    view.parallel = !space.perspective;
-    view.orthographic = !space.perspective && !warp.warped();
+    view.serves.slice = input.slice.depth;
+    view.serves.sector = input.slice.sector;
+    view.serves.faded_in = input.slice.faded_in;
+    view.serves.layered = input.slice.layered;
+    view.serves.rim = input.slice.rim;
+    view.projection.parallel = !space.perspective;
+    view.projection.orthographic = !space.perspective && !warp.warped();
     // Between a placed light and its near distance nothing casts, so there the rasteriser cuts.
-    view.clamp_near = input.frame.clamps_depth && recipe.filter->clamps_near && !recipe.resolved.integratesLight() &&
-                      !space.perspective;
+    view.projection.clamp_near = input.frame.clamps_depth && recipe.filter->clamps_near &&
+                                 !recipe.resolved.integratesLight() && !space.perspective;
     view.fit = fit;
-    view.texel_xy_m = fit.coarsest_texel;
-    view.texel_m = std::max(view.texel_xy_m.x, view.texel_xy_m.y);
-    view.first_caster = first_caster;
-    view.caster_count = static_cast<std::uint32_t>(casters.size()) - first_caster;
+    view.projection.texel_xy_m = fit.coarsest_texel;
+    view.projection.texel_m = std::max(view.projection.texel_xy_m.x, view.projection.texel_xy_m.y);
+    view.casters.first = first_caster;
+    view.casters.count = static_cast<std::uint32_t>(casters.size()) - first_caster;
     const DepthRange range = rangeOf(input, space, view);
-    view.clip_from_world = clipFromWorld(space, warp, shown, range.near_m, range.far_m);
+    view.projection.clip_from_world = clipFromWorld(space, warp, shown, range.near_m, range.far_m);
     measureDepth(input, space, range, view);
     if (!isFinite(view)) {
         casters.resize(first_caster);
@@ -301,13 +302,14 @@ DepthRange FrustumPlanner::rangeOf(const FrustumInput& input, const LightSpace& 
     const CameraView& camera = input.camera;
     const glm::dvec3 scene = glm::dvec3(camera.scene_ws.max) - glm::dvec3(camera.scene_ws.min);
     // Where casters are clamped there is room for what clamping needs; averages lose by a range that is not theirs.
-    const bool needs_range = !view.clamp_near && !recipe.filter->filterable;
+    const bool needs_range = !view.projection.clamp_near && !recipe.filter->filterable;
     const double least_m = needs_range ? kLeastRange * std::max({scene.x, scene.y, scene.z}) : 0.0;
     if (recipe.holdsScene()) {
         const SceneDepths depths = depthsOfScene(space, input.scene_ws, least_m);
         return {depths.near_m, depths.far_m};
     }
-    return depthRangeOf({region_, space, view.clamp_near, recipe.steady(), view.texel_m, camera.pad_m, least_m});
+    return depthRangeOf(
+        {region_, space, view.projection.clamp_near, recipe.steady(), view.projection.texel_m, camera.pad_m, least_m});
 }
 
 /// The metric, and where its depths are measured from.
@@ -317,15 +319,15 @@ void FrustumPlanner::measureDepth(const FrustumInput& input, const LightSpace& s
     const bool whole = input.recipe.holdsScene();
     const double place_m = whole ? range.near_m : lightPlaceOf(region_, space, range.near_m);
     const glm::dvec3 centre_ws = region_.centre_ws();
-    view.light_place_ws =
+    view.projection.light_place_ws =
         space.perspective ? space.origin_ws : centre_ws + space.forward_ws * (place_m - space.coordinates(centre_ws).z);
     if (whole) {
-        view.light_place_ws = lightPlaceOfScene(space, input.scene_ws, place_m);
+        view.projection.light_place_ws = lightPlaceOfScene(space, input.scene_ws, place_m);
     }
-    view.metric.near_m = range.near_m - place_m;
-    view.metric.far_m = range.far_m - place_m;
+    view.projection.metric.near_m = range.near_m - place_m;
+    view.projection.metric.far_m = range.far_m - place_m;
     const glm::dvec4 depth(space.depth_ws, -glm::dot(space.depth_ws, space.origin_ws) - range.near_m);
-    view.metric.metric_ws = depth / (range.far_m - range.near_m);
+    view.projection.metric.metric_ws = depth / (range.far_m - range.near_m);
 }
 
 } // namespace gnomon

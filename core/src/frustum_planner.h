@@ -67,7 +67,7 @@ private:
         LightSpace space;
         double border_texels = 0.0;
         double least_size = 0.0;
-        double light_reach = 0.0; // View::light_reach
+        double light_reach = 0.0; // ViewProjection::light_reach
         Outcome outcome;          // not ok: the slice needs no map
     };
     [[nodiscard]] Lie lieOf(const FrustumInput& input);

@@ -166,19 +166,19 @@ Outcome FrustumPlanner::planHalf(const FrustumInput& input, View& view, std::vec
         outcome.kind != OutcomeKind::ok) {
         return outcome;
     }
-    view.slice = input.slice.depth;
-    view.sector = input.slice.sector;
-    view.parallel = false;
-    view.orthographic = false;
-    view.clamp_near = false; // nothing before the light's near distance casts
-    view.paraboloid = true;
-    view.light_place_ws = space.origin_ws;
+    view.serves.slice = input.slice.depth;
+    view.serves.sector = input.slice.sector;
+    view.projection.parallel = false;
+    view.projection.orthographic = false;
+    view.projection.clamp_near = false; // nothing before the light's near distance casts
+    view.projection.paraboloid = true;
+    view.projection.light_place_ws = space.origin_ws;
     // In the disc's middle twice what it is at the rim.
     view.fit = {1.0, frame.texel, 2.0 * frame.texel};
-    view.texel_xy_m = view.fit.coarsest_texel;
-    view.texel_m = view.texel_xy_m.x;
-    view.first_caster = first_caster;
-    view.caster_count = static_cast<std::uint32_t>(casters.size()) - first_caster;
+    view.projection.texel_xy_m = view.fit.coarsest_texel;
+    view.projection.texel_m = view.projection.texel_xy_m.x;
+    view.casters.first = first_caster;
+    view.casters.count = static_cast<std::uint32_t>(casters.size()) - first_caster;
 
     const glm::dvec3 scene = glm::dvec3(input.camera.scene_ws.max) - glm::dvec3(input.camera.scene_ws.min);
     double near_m = std::min(seen.near_m, seen.far_m);
@@ -187,12 +187,12 @@ Outcome FrustumPlanner::planHalf(const FrustumInput& input, View& view, std::vec
     const double far_m = std::max(seen.far_m + margin_m,
                                   near_m + std::max(margin_m, kLeastRange * std::max({scene.x, scene.y, scene.z})));
     const double length = far_m - near_m;
-    view.metric = {{0.0, 0.0, 0.0, -near_m / length}, near_m, far_m};
+    view.projection.metric = {{0.0, 0.0, 0.0, -near_m / length}, near_m, far_m};
     const auto row = [&](const glm::dvec3& axis) {
         return glm::dvec4(axis, -glm::dot(axis, space.origin_ws)) / length;
     };
-    view.clip_from_world = glm::transpose(glm::dmat4(row(space.right_ws), row(-space.up_ws), row(space.forward_ws),
-                                                     glm::dvec4(0.0, 0.0, 0.0, frame.half.x)));
+    view.projection.clip_from_world = glm::transpose(glm::dmat4(
+        row(space.right_ws), row(-space.up_ws), row(space.forward_ws), glm::dvec4(0.0, 0.0, 0.0, frame.half.x)));
     if (!isFinite(view)) {
         casters.resize(first_caster);
         return kTooFarApart;

@@ -39,7 +39,7 @@ MapBox boxOn(const View& view, const Aabb& box_ws)
 {
     MapBox box{glm::dvec2(1e300), glm::dvec2(-1e300)};
     for (int i = 0; i < 8; ++i) {
-        const glm::dvec4 c = view.clip_from_world * glm::dvec4(glm::dvec3(box_ws.corner(i)), 1.0);
+        const glm::dvec4 c = view.projection.clip_from_world * glm::dvec4(glm::dvec3(box_ws.corner(i)), 1.0);
         if (!(c.w > 0.0)) {
             return {};
         }
@@ -186,8 +186,8 @@ void countPairs(const Plan& plan, const View& view, std::span<const std::uint16_
         bool is_flat = false;
     };
     std::vector<Drawn> drawn;
-    for (std::uint32_t i = 0; i < view.caster_count; ++i) {
-        const std::uint32_t object = plan.casters[view.first_caster + i];
+    for (std::uint32_t i = 0; i < view.casters.count; ++i) {
+        const std::uint32_t object = plan.casters[view.casters.first + i];
         if (ids[object] != 0) {
             const Aabb& bounds_ws = plan.object_bounds[object];
             drawn.push_back({boxOn(view, bounds_ws),
@@ -297,7 +297,7 @@ IdCollisions countIdCollisions(const Plan& plan, std::uint32_t light)
     for (std::uint32_t i = 0; i < planned.view_count; ++i) {
         const View& view = plan.views[planned.first_view + i];
         countPairs(plan, view, ids, counted);
-        const auto casters = std::span(plan.casters).subspan(view.first_caster, view.caster_count);
+        const auto casters = std::span(plan.casters).subspan(view.casters.first, view.casters.count);
         std::copy_if(casters.begin(), casters.end(), std::back_inserter(drawn),
                      [&](std::uint32_t object) { return ids[object] != 0; });
     }

@@ -200,20 +200,20 @@ void writeMap(JsonWriter& json, const MapId& map)
 /// Where what stands still is kept, and what of the map is restored from there.
 void writeKept(JsonWriter& json, const View& view)
 {
-    if (view.kept_layer == kNoIndex) {
+    if (view.contents.kept_layer == kNoIndex) {
         json.nothing("kept");
         return;
     }
     json.openLine("kept", '{');
-    writeMap(json, view.kept_map);
-    json.value("layer", view.kept_layer);
-    json.flag("redraw", view.redraw_kept);
-    json.value("still_count", view.still_count);
+    writeMap(json, view.contents.kept_map);
+    json.value("layer", view.contents.kept_layer);
+    json.flag("redraw", view.contents.redraw_kept);
+    json.value("still_count", view.casters.still);
     json.openLine("dirty", '{');
-    json.value("x", view.dirty.x);
-    json.value("y", view.dirty.y);
-    json.value("width", view.dirty.width);
-    json.value("height", view.dirty.height);
+    json.value("x", view.contents.dirty.x);
+    json.value("y", view.contents.dirty.y);
+    json.value("width", view.contents.dirty.width);
+    json.value("height", view.contents.dirty.height);
     json.closeLine('}');
     json.closeLine('}');
 }
@@ -222,75 +222,75 @@ void writeView(JsonWriter& json, const Plan& plan, const View& view)
 {
     json.open({}, '{');
     json.value("light", view.light);
-    writeMap(json, view.map);
+    writeMap(json, view.place.map);
     json.openLine("tile", '{');
-    json.value("layer", view.tile.layer);
-    json.value("x", view.tile.x);
-    json.value("y", view.tile.y);
-    json.value("width", view.tile.width);
-    json.value("height", view.tile.height);
+    json.value("layer", view.place.tile.layer);
+    json.value("x", view.place.tile.x);
+    json.value("y", view.place.tile.y);
+    json.value("width", view.place.tile.width);
+    json.value("height", view.place.tile.height);
     json.closeLine('}');
-    json.value("part", nameOf(view.part));
-    json.value("sun", nameOf(view.sun));
-    json.flag("redraw", view.redraw);
-    json.value("waited", view.waited);
+    json.value("part", nameOf(view.place.part));
+    json.value("sun", nameOf(view.serves.sun));
+    json.flag("redraw", view.contents.redraw);
+    json.value("waited", view.contents.waited);
     writeKept(json, view);
-    json.flag("orthographic", view.orthographic);
-    json.flag("parallel", view.parallel);
-    if (view.paraboloid) {
+    json.flag("orthographic", view.projection.orthographic);
+    json.flag("parallel", view.projection.parallel);
+    if (view.projection.paraboloid) {
         json.flag("paraboloid", true);
     }
-    json.flag("clamp_near", view.clamp_near);
-    json.value("texel_m", view.texel_m);
-    json.vector("texel_xy_m", view.texel_xy_m, 2);
+    json.flag("clamp_near", view.projection.clamp_near);
+    json.value("texel_m", view.projection.texel_m);
+    json.vector("texel_xy_m", view.projection.texel_xy_m, 2);
     json.openLine("fit", '{');
     json.value("strength", view.fit.strength);
     json.vector("finest_texel", view.fit.finest_texel, 2);
     json.vector("coarsest_texel", view.fit.coarsest_texel, 2);
     json.closeLine('}');
     json.openLine("slice", '{');
-    json.value("begin_m", view.slice.begin_m);
-    json.value("end_m", view.slice.end_m);
-    json.value("blend_m", view.slice.blend_m);
-    json.vector("axis", view.slice.axis, 4);
-    if (view.slice.isRatio()) {
-        json.vector("over", view.slice.over, 4);
+    json.value("begin_m", view.serves.slice.begin_m);
+    json.value("end_m", view.serves.slice.end_m);
+    json.value("blend_m", view.serves.slice.blend_m);
+    json.vector("axis", view.serves.slice.axis, 4);
+    if (view.serves.slice.isRatio()) {
+        json.vector("over", view.serves.slice.over, 4);
     }
     json.closeLine('}');
-    if (view.faded_in < 1.0) {
-        json.value("faded_in", view.faded_in);
+    if (view.serves.faded_in < 1.0) {
+        json.value("faded_in", view.serves.faded_in);
     }
-    if (view.layered) {
-        json.value("rim", view.rim);
+    if (view.serves.layered) {
+        json.value("rim", view.serves.rim);
     }
-    if (view.sector.bounded()) {
+    if (view.serves.sector.bounded()) {
         json.openLine("sector", '{');
-        json.vector("x", view.sector.x, 4);
-        json.vector("y", view.sector.y, 4);
-        json.vector("w", view.sector.w, 4);
+        json.vector("x", view.serves.sector.x, 4);
+        json.vector("y", view.serves.sector.y, 4);
+        json.vector("w", view.serves.sector.w, 4);
         json.closeLine('}');
     }
-    if (view.gpu_cascade != kNoIndex) {
-        json.value("gpu_cascade", view.gpu_cascade);
+    if (view.projection.gpu_cascade != kNoIndex) {
+        json.value("gpu_cascade", view.projection.gpu_cascade);
     }
-    json.vector("light_place_ws", view.light_place_ws, 3);
+    json.vector("light_place_ws", view.projection.light_place_ws, 3);
     json.open("clip_from_world_rows", '[');
     for (int row = 0; row < 4; ++row) {
         json.openLine({}, '[');
         for (int column = 0; column < 4; ++column) {
-            json.value({}, view.clip_from_world[column][row]);
+            json.value({}, view.projection.clip_from_world[column][row]);
         }
         json.closeLine(']');
     }
     json.close(']');
     json.openLine("metric", '{');
-    json.value("near_m", view.metric.near_m);
-    json.value("far_m", view.metric.far_m);
-    json.vector("metric_ws", view.metric.metric_ws, 4);
+    json.value("near_m", view.projection.metric.near_m);
+    json.value("far_m", view.projection.metric.far_m);
+    json.vector("metric_ws", view.projection.metric.metric_ws, 4);
     json.closeLine('}');
-    if (view.layers[0] != DepthSpan{}) {
+    if (view.serves.layers[0] != DepthSpan{}) {
         json.openLine("world_layers", '[');
-        for (const DepthSpan& layer : view.layers) {
+        for (const DepthSpan& layer : view.serves.layers) {
             if (layer != DepthSpan{}) {
                 json.value({}, layer.near);
                 json.value({}, layer.far);
@@ -299,8 +299,8 @@ void writeView(JsonWriter& json, const Plan& plan, const View& view)
         json.closeLine(']');
     }
     json.openLine("casters", '[');
-    for (std::uint32_t i = 0; i < view.caster_count; ++i) {
-        json.value({}, plan.casters[view.first_caster + i]);
+    for (std::uint32_t i = 0; i < view.casters.count; ++i) {
+        json.value({}, plan.casters[view.casters.first + i]);
     }
     json.closeLine(']');
     json.close('}');
@@ -329,10 +329,11 @@ void writeObjects(JsonWriter& json, const Plan& plan)
         json.flag("seen", seen);
         json.openLine("casts_in_views", '[');
         for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
-            const auto first = plan.casters.begin() + plan.views[i].first_caster;
-            const auto moving = first + (plan.views[i].kept_layer == kNoIndex ? 0 : plan.views[i].still_count);
+            const auto first = plan.casters.begin() + plan.views[i].casters.first;
+            const auto moving =
+                first + (plan.views[i].contents.kept_layer == kNoIndex ? 0 : plan.views[i].casters.still);
             if (std::binary_search(first, moving, object) ||
-                std::binary_search(moving, first + plan.views[i].caster_count, object)) {
+                std::binary_search(moving, first + plan.views[i].casters.count, object)) {
                 json.value({}, i);
             }
         }

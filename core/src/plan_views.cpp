@@ -14,18 +14,21 @@ namespace {
 
 bool isDrawnAtOnce(const View& view, bool all)
 {
-    return (view.redraw || all) && view.kept_layer == kNoIndex && view.part == TexelPart::whole && !view.paraboloid;
+    return (view.contents.redraw || all) && view.contents.kept_layer == kNoIndex &&
+           view.place.part == TexelPart::whole && !view.projection.paraboloid;
 }
 
 /// Can one pass draw `next`, `above` layers above `view`?
 bool goTogether(const View& view, const View& next, std::uint32_t above)
 {
-    const Tile& a = view.tile;
-    const Tile& b = next.tile;
+    const Tile& a = view.place.tile;
+    const Tile& b = next.place.tile;
     const bool same_place =
         b.layer == a.layer + above && b.x == a.x && b.y == a.y && b.width == a.width && b.height == a.height;
-    return same_place && next.light == view.light && next.sun == view.sun && next.orthographic == view.orthographic &&
-           next.clamp_near == view.clamp_near && (next.gpu_cascade == kNoIndex) == (view.gpu_cascade == kNoIndex);
+    return same_place && next.light == view.light && next.serves.sun == view.serves.sun &&
+           next.projection.orthographic == view.projection.orthographic &&
+           next.projection.clamp_near == view.projection.clamp_near &&
+           (next.projection.gpu_cascade == kNoIndex) == (view.projection.gpu_cascade == kNoIndex);
 }
 
 } // namespace
@@ -60,27 +63,28 @@ std::span<const View> viewsOf(const Plan& plan, std::uint32_t light, SunPosition
         return {};
     }
     const std::span<const View> all = std::span(plan.views).subspan(planned.first_view, planned.view_count);
-    const auto first = std::ranges::find(all, sun, &View::sun);
-    const auto end = std::find_if(first, all.end(), [&](const View& view) { return view.sun != sun; });
+    const auto first = std::ranges::find(all, sun, [](const View& view) { return view.serves.sun; });
+    const auto end = std::find_if(first, all.end(), [&](const View& view) { return view.serves.sun != sun; });
     return {first, end};
 }
 
 std::uint64_t texelsToDraw(const View& view)
 {
-    if (!view.redraw) {
+    if (!view.contents.redraw) {
         return 0;
     }
-    const std::uint64_t whole = std::uint64_t{view.tile.width} * view.tile.height;
-    if (view.kept_layer == kNoIndex) {
+    const std::uint64_t whole = std::uint64_t{view.place.tile.width} * view.place.tile.height;
+    if (view.contents.kept_layer == kNoIndex) {
         return whole;
     }
-    return std::uint64_t{view.dirty.width} * view.dirty.height + (view.redraw_kept ? whole : 0);
+    return std::uint64_t{view.contents.dirty.width} * view.contents.dirty.height +
+           (view.contents.redraw_kept ? whole : 0);
 }
 
 std::optional<glm::dvec2> placeOnMap(const View& view, const glm::dvec3& p_ws)
 {
-    const glm::dvec4 clip = view.clip_from_world * glm::dvec4(p_ws, 1.0);
-    if (view.paraboloid) {
+    const glm::dvec4 clip = view.projection.clip_from_world * glm::dvec4(p_ws, 1.0);
+    if (view.projection.paraboloid) {
         const glm::dvec3 q(clip);
         const bool is_behind = !(q.z + glm::length(q) > 0.0);
         return is_behind ? std::nullopt : std::optional(shared::paraboloidPlace(q) / clip.w);
@@ -91,8 +95,9 @@ std::optional<glm::dvec2> placeOnMap(const View& view, const glm::dvec3& p_ws)
 double depthOnMap(const View& view, const glm::dvec3& p_ws)
 {
     const glm::dvec4 p(p_ws, 1.0);
-    return view.paraboloid ? glm::length(glm::dvec3(view.clip_from_world * p)) + view.metric.metric_ws.w
-                           : glm::dot(view.metric.metric_ws, p);
+    return view.projection.paraboloid
+               ? glm::length(glm::dvec3(view.projection.clip_from_world * p)) + view.projection.metric.metric_ws.w
+               : glm::dot(view.projection.metric.metric_ws, p);
 }
 
 std::uint32_t viewsTogether(const Plan& plan, std::uint32_t first, bool all)

@@ -194,7 +194,8 @@ void Planner::Impl::makePlan(const Frame& frame, const Outcome& fault)
 /// Where the same frame was planned twice: what remembers (AutoChooser, MultiPartition) has had its say.
 bool Planner::Impl::settles() const
 {
-    return std::ranges::none_of(plan.views, [](const View& view) { return view.redraw || view.faded_in < 1.0; }) &&
+    return std::ranges::none_of(plan.views,
+                                [](const View& view) { return view.contents.redraw || view.serves.faded_in < 1.0; }) &&
            std::ranges::none_of(plan.lights, [](const LightPlan& light) { return light.waited > 0; });
 }
 

@@ -24,20 +24,21 @@ glm::dvec3 heightDepth(const LightSpace& space)
 
 void placeLayers(std::span<const WorldLayer> layers, LayerAxis axis, const glm::dvec3& forward_ws, View& view)
 {
-    const glm::dvec4& row = view.metric.metric_ws;
+    const glm::dvec4& row = view.projection.metric.metric_ws;
     const bool by_height = axis == LayerAxis::height;
     const auto count = static_cast<double>(layers.size());
     const bool is_level = row.x == 0.0 && row.z == 0.0;
     // d' at so many metres.
     const auto depthAt = [&](double metres) {
-        if (!view.parallel) {
-            return (metres - view.metric.near_m) / (view.metric.far_m - view.metric.near_m);
+        if (!view.projection.parallel) {
+            return (metres - view.projection.metric.near_m) /
+                   (view.projection.metric.far_m - view.projection.metric.near_m);
         }
         return by_height ? row.y * metres + row.w : glm::dot(glm::dvec3(row), forward_ws) * metres + row.w;
     };
-    view.layers = {};
+    view.serves.layers = {};
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        DepthSpan& span = view.layers[i];
+        DepthSpan& span = view.serves.layers[i];
         if (by_height && !is_level) {
             span = {static_cast<double>(i) / count, static_cast<double>(i + 1) / count};
             continue;

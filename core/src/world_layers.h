@@ -12,8 +12,8 @@ namespace gnomon {
 /// the light's own.
 [[nodiscard]] glm::dvec3 heightDepth(const LightSpace& space);
 
-/// Fills in View::layers, of a view whose metric is known. Where layers of height cannot be had, see heightDepth(),
-/// they are equal parts of the view's depths.
+/// Fills in ViewServes::layers, of a view whose metric is known. Where layers of height cannot be had, see
+/// heightDepth(), they are equal parts of the view's depths.
 void placeLayers(std::span<const WorldLayer> layers, LayerAxis axis, const glm::dvec3& forward_ws, View& view);
 
 } // namespace gnomon

@@ -101,7 +101,8 @@ public:
     void draw(const vk::raii::CommandBuffer& commands, const Cube& cube, const gnomon::vulkan::MapPass& pass) const
     {
         cube.bind(commands);
-        const std::size_t of_view = (pass.view->orthographic ? 0U : 1U) + (pass.view->clamp_near ? 2U : 0U);
+        const std::size_t of_view =
+            (pass.view->projection.orthographic ? 0U : 1U) + (pass.view->projection.clamp_near ? 2U : 0U);
         for (const std::uint32_t object : pass.casters) {
             const Thing& thing = kThings[object];
             commands.bindPipeline(vk::PipelineBindPoint::eGraphics,

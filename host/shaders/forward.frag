@@ -7,7 +7,7 @@
 layout(constant_id = 3) const bool kEmissiveOnly = false;
 layout(constant_id = 8) const bool kOpaque = false; // else blended
 layout(constant_id = 10) const bool kTints = true;  // blended casters may tint the light
-layout(constant_id = 26) const bool kLayered = false; // views may be View::layered ones
+layout(constant_id = 26) const bool kLayered = false; // views may be ViewServes::layered ones
 layout(constant_id = 27) const bool kOrthographic = false; // all views are
 #include "shown.glsl" // first: the library's headers take the macros of portability.h back
 #include "gnomon/shared/blended_tint.h"

@@ -117,8 +117,8 @@ struct ForwardFacts {
     ShadedBy by;
     std::string fragment = "forward.frag"; // with a filter's name: in the shadow of its maps
     pack::TechniqueConstants technique;
-    bool tints = false;   // blended casters may tint the light
-    bool layered = false; // some view is View::layered
+    bool tints = false;        // blended casters may tint the light
+    bool layered = false;      // some view is ViewServes::layered
     bool orthographic = false; // all views are
 
     bool operator==(const ForwardFacts&) const = default;

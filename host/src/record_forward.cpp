@@ -39,14 +39,15 @@ void FrameRenderer::Impl::chooseForward(const ShadedBy& by)
     if (plan != nullptr && !plan->views.empty()) {
         const ResolvedOptions& resolved = plan->options->front(); // as ForwardShadows::describe()
         facts.fragment = forwardFragment(resolved);
-        facts.orthographic = std::ranges::all_of(plan->views, &View::orthographic);
+        facts.orthographic =
+            std::ranges::all_of(plan->views, [](const View& view) { return view.projection.orthographic; });
         facts.technique = pack::techniqueConstants(resolved);
         facts.technique.few_views = pack::fewViewsOf(*plan);
         // lavapipe 22.3 crashes on other filters' shaders where the one view is at a fixed place of uniforms.
         if (facts.technique.few_views == 1 && resolved.filter() != Filter::hard && resolved.filter() != Filter::pcf) {
             facts.technique.few_views = 0;
         }
-        facts.layered = std::ranges::any_of(plan->views, &View::layered);
+        facts.layered = std::ranges::any_of(plan->views, [](const View& view) { return view.serves.layered; });
         facts.tints = shadows->renderer.tints().image != VK_NULL_HANDLE;
     }
     forward.pipelines = &scene.pipelines.forwardFor(facts);

@@ -44,7 +44,7 @@ vulkan::CasterDrawerOptions casterOptions(const Gpu& gpu, const RenderOptions& o
 
 bool isFitted(const View& view)
 {
-    return view.gpu_cascade != kNoIndex;
+    return view.projection.gpu_cascade != kNoIndex;
 }
 
 } // namespace
@@ -85,10 +85,10 @@ const Plan& Shadows::planAgain(const Frame& frame)
     kept_.made_for.camera = frame.camera;
     kept_.made_for.size_px = frame.size_px;
     for (View& view : kept_.views) {
-        view.redraw = false;
-        view.redraw_kept = false;
-        view.presumes = view.makes;
-        view.kept_presumes = view.kept_makes;
+        view.contents.redraw = false;
+        view.contents.redraw_kept = false;
+        view.contents.presumes = view.contents.makes;
+        view.contents.kept_presumes = view.contents.kept_makes;
     }
     return kept_;
 }

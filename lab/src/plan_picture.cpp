@@ -33,7 +33,7 @@ std::vector<std::uint32_t> shownViews(const Plan& plan, std::uint32_t light)
     const LightPlan& planned = plan.lights[light];
     std::vector<std::uint32_t> shown;
     for (std::uint32_t i = planned.first_view; i < planned.first_view + planned.view_count; ++i) {
-        if (planned.outcome.hasMap() && plan.views[i].sun != SunPosition::later) {
+        if (planned.outcome.hasMap() && plan.views[i].serves.sun != SunPosition::later) {
             shown.push_back(i);
         }
     }
@@ -98,7 +98,7 @@ PlanMap mapOf(const PlanScene& scene, const Frame& frame, const Plan& plan, std:
         map.seen_across = map.seen;
         map.outline_across = cornersOf(map.from_plane);
     }
-    const auto casters = std::span(plan.casters).subspan(view.first_caster, view.caster_count);
+    const auto casters = std::span(plan.casters).subspan(view.casters.first, view.casters.count);
     map.casters.assign(casters.begin(), casters.end());
     return map;
 }
@@ -112,7 +112,7 @@ PlanScene sceneOf(const Frame& frame, const Plan& plan, std::uint32_t light)
     }
     const View& first = plan.views[shown.front()];
     scene.from_above = frame.lights[light].type == LightType::point;
-    scene.across = lookOf(scene.from_above ? planeFromAbove(first.light_place_ws, frame.camera)
+    scene.across = lookOf(scene.from_above ? planeFromAbove(first.projection.light_place_ws, frame.camera)
                                            : lightPlaneOf(first, frame.camera),
                           frame);
     scene.objects.resize(frame.objects->size());
@@ -135,7 +135,7 @@ std::string mapName(const Plan& plan, const PlanScene& scene, std::size_t i)
 {
     const View& view = plan.views[scene.maps[i].view];
     return (scene.maps.size() > 1 ? "Map " + std::to_string(i) : std::string("In the map")) + ": " +
-           std::to_string(view.tile.width) + " x " + std::to_string(view.tile.height) +
+           std::to_string(view.place.tile.width) + " x " + std::to_string(view.place.tile.height) +
            (scene.maps.size() > 4 ? "" : " texels"); // three in a row have no room for it
 }
 
@@ -181,7 +181,7 @@ std::string opening(double height_px)
 std::string planSvg(const Frame& frame, const Plan& plan, std::uint32_t light, const PlanCaption& caption)
 {
     const std::vector<std::uint32_t> shown = shownViews(plan, light);
-    const bool bent = !shown.empty() && plan.views[shown.front()].paraboloid;
+    const bool bent = !shown.empty() && plan.views[shown.front()].projection.paraboloid;
     const PlanScene scene = bent ? PlanScene{} : sceneOf(frame, plan, light);
     const Outcome& outcome = plan.lights[light].outcome;
     std::string body = "<title>" + svgText(caption.title, caption.title.size()) + "</title>\n" +

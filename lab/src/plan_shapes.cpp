@@ -81,7 +81,7 @@ std::vector<Plane> planesOf(const LightPlane& plane, const Frame& frame, const P
             planes.push_back({glm::dvec3(row) / length, row.w / length});
         }
     };
-    const ViewSlice& slice = view.slice;
+    const ViewSlice& slice = view.serves.slice;
     if (std::isfinite(slice.begin_m)) {
         add(slice.axis - slice.begin_m * slice.over);
     }
@@ -101,9 +101,10 @@ std::vector<Plane> planesOf(const LightPlane& plane, const Frame& frame, const P
             }
         }
     }
-    if (view.sector.bounded()) {
-        for (const glm::dvec4& side : {view.sector.x, -view.sector.x, view.sector.y, -view.sector.y}) {
-            add(view.sector.w + side);
+    if (view.serves.sector.bounded()) {
+        for (const glm::dvec4& side :
+             {view.serves.sector.x, -view.serves.sector.x, view.serves.sector.y, -view.serves.sector.y}) {
+            add(view.serves.sector.w + side);
         }
     }
     constexpr int kSides = 24; // of the pyramid that stands for a light's cone
@@ -156,18 +157,20 @@ glm::dvec3 forwardOf(const Camera& camera)
 LightPlane lightPlaneOf(const View& view, const Camera& camera)
 {
     LightPlane plane;
-    plane.perspective = !view.parallel;
-    if (view.parallel) {
+    plane.perspective = !view.projection.parallel;
+    if (view.projection.parallel) {
         // What a map has at one place is a ray of its light, so no ray changes x or y; depth grows along it. A sun that
         // steps need not stand where the frame's light does.
-        const glm::dvec3 ray = glm::cross(rowOf(view.clip_from_world, 0), rowOf(view.clip_from_world, 1));
+        const glm::dvec3 ray =
+            glm::cross(rowOf(view.projection.clip_from_world, 0), rowOf(view.projection.clip_from_world, 1));
         plane.forward_ws = glm::normalize(ray);
-        if (glm::dot(plane.forward_ws, glm::dvec3(view.metric.metric_ws)) < 0.0) {
+        if (glm::dot(plane.forward_ws, glm::dvec3(view.projection.metric.metric_ws)) < 0.0) {
             plane.forward_ws = -plane.forward_ws;
         }
     } else {
-        plane.origin_ws = view.light_place_ws;
-        plane.forward_ws = glm::normalize(glm::dvec3(view.metric.metric_ws)); // depth grows along the view's axis
+        plane.origin_ws = view.projection.light_place_ws;
+        plane.forward_ws =
+            glm::normalize(glm::dvec3(view.projection.metric.metric_ws)); // depth grows along the view's axis
     }
     turnUp(plane, camera);
     return plane;
@@ -201,7 +204,7 @@ Polygon pyramidOf(const LightPlane& plane, const MapInPlane& map, double reach_m
 glm::dmat3 mapFromPlane(const LightPlane& plane, const View& view)
 {
     const auto column = [&](const glm::dvec3& v, double w) {
-        const glm::dvec4 clip = view.clip_from_world * glm::dvec4(v, w);
+        const glm::dvec4 clip = view.projection.clip_from_world * glm::dvec4(v, w);
         return glm::dvec3(clip.x, clip.y, clip.w);
     };
     // At any depth under parallel light, which changes nothing; 1 m from the place of another.

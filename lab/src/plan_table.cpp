@@ -74,17 +74,17 @@ std::string drawKey(const PlanScene& scene, double x, double y)
 
 std::string sliceOf(const View& view)
 {
-    if (!view.slice.bounded()) {
+    if (!view.serves.slice.bounded()) {
         return "all";
     }
     const std::string unit =
-        std::string(view.slice.isRatio() ? " x lamp's" : " m") + (view.slice.across ? " across" : "");
-    if (view.slice.across && !std::isfinite(view.slice.begin_m)) {
-        return "to " + numberOf(view.slice.end_m) + unit;
+        std::string(view.serves.slice.isRatio() ? " x lamp's" : " m") + (view.serves.slice.across ? " across" : "");
+    if (view.serves.slice.across && !std::isfinite(view.serves.slice.begin_m)) {
+        return "to " + numberOf(view.serves.slice.end_m) + unit;
     }
-    const std::string begin = std::isfinite(view.slice.begin_m) ? numberOf(view.slice.begin_m) : "0";
-    return std::isfinite(view.slice.end_m) ? begin + " to " + numberOf(view.slice.end_m) + unit
-                                           : "from " + begin + unit;
+    const std::string begin = std::isfinite(view.serves.slice.begin_m) ? numberOf(view.serves.slice.begin_m) : "0";
+    return std::isfinite(view.serves.slice.end_m) ? begin + " to " + numberOf(view.serves.slice.end_m) + unit
+                                                  : "from " + begin + unit;
 }
 
 std::string texelOf(const glm::dvec2& texel)
@@ -112,12 +112,12 @@ std::string drawRows(const Plan& plan, const PlanScene& scene, const PixelRect& 
         y += kRow_px;
         const bool warped = view.fit.strength > 1.0;
         const std::array<std::string, columns.size()> cells{sliceOf(view),
-                                                            texelOf(view.texel_xy_m),
+                                                            texelOf(view.projection.texel_xy_m),
                                                             warped ? texelOf(view.fit.finest_texel) : "as everywhere",
                                                             warped ? numberOf(view.fit.strength) + " x" : "none",
-                                                            std::to_string(view.caster_count),
-                                                            std::to_string(view.tile.layer),
-                                                            view.redraw ? "drawn" : "kept"};
+                                                            std::to_string(view.casters.count),
+                                                            std::to_string(view.place.tile.layer),
+                                                            view.contents.redraw ? "drawn" : "kept"};
         out += boxAt({rect.x, y - 10.0, 12.0, 12.0}, "fill=\"" + mapColour(i) + "\"") +
                textAt(rect.x + 18.0, y, "", std::to_string(i).substr(0, 2));
         for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -156,7 +156,7 @@ DrawnBelow drawAtlas(const Plan& plan, const PlanScene& scene, const PixelRect& 
         drawn.end_px = at.y + side;
     }
     for (std::size_t i = 0; i < plan.views.size(); ++i) {
-        const Tile& tile = plan.views[i].tile;
+        const Tile& tile = plan.views[i].place.tile;
         if (tile.layer >= layers) {
             continue;
         }

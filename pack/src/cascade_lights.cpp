@@ -17,7 +17,7 @@ static_assert(shared::kMostCascades == static_cast<int>(kMaxCascades));
 
 bool isFirst(const View& view)
 {
-    return view.gpu_cascade == 0;
+    return view.projection.gpu_cascade == 0;
 }
 
 /// The light that the base map `view`, the plan's view `index`, belongs to.
@@ -27,12 +27,12 @@ shared::GpuCascadeLight describe(const Plan& plan, std::uint32_t index, glm::uve
     const Camera& camera = plan.made_for.camera;
     const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), camera.eye_ws);
     const glm::dmat4 eye_from_ndc = glm::inverse(clipFromWorld(camera) * world_from_eye);
-    const glm::dmat4 base_from_eye = view.clip_from_world * world_from_eye;
+    const glm::dmat4 base_from_eye = view.projection.clip_from_world * world_from_eye;
     const ResolvedOptions& options = optionsOf(plan, view);
     const CascadeOptions& cascades = options.cascades();
     const double margin_texels = tileMarginTexels(static_cast<double>(options.reach_texels()));
-    const glm::dvec2 texels(view.tile.width, view.tile.height);
-    const glm::dvec2 widen = texels / (texels - 2.0 * options.borderOf(view.tile.width));
+    const glm::dvec2 texels(view.place.tile.width, view.place.tile.height);
+    const glm::dvec2 widen = texels / (texels - 2.0 * options.borderOf(view.place.tile.width));
     const glm::dvec2 inside = 1.0 - 2.0 * margin_texels / texels;
     constexpr double kAnywhere_m = 1e18;
     const bool perspective = glm::length(glm::dvec3(glm::row(camera.clip_from_world, 3))) > 0.0;
@@ -42,7 +42,7 @@ shared::GpuCascadeLight describe(const Plan& plan, std::uint32_t index, glm::uve
     light.eye_y = glm::row(eye_from_ndc, 1);
     light.eye_z = glm::row(eye_from_ndc, 2);
     light.eye_w = glm::row(eye_from_ndc, 3);
-    light.view_axis = glm::vec4(glm::vec3(view.slice.axis), 0.0F);
+    light.view_axis = glm::vec4(glm::vec3(view.serves.slice.axis), 0.0F);
     const glm::vec2 size(screen_px);
     light.screen = {size, 1.0F / size};
     light.base_x = glm::row(base_from_eye, 0);
@@ -57,9 +57,10 @@ shared::GpuCascadeLight describe(const Plan& plan, std::uint32_t index, glm::uve
     const auto& ends = cascades.ends_m;
     light.ends[0] = glm::dvec4(ends[0], ends[1], ends[2], ends[3]);
     light.ends[1] = glm::dvec4(ends[4], 0.0, 0.0, 0.0);
-    light.texel = glm::dvec4(view.texel_xy_m, view.grid_move_texels * 2.0 / texels);
+    light.texel = glm::dvec4(view.projection.texel_xy_m, view.projection.grid_move_texels * 2.0 / texels);
     // Texels of the base map are at their finest where w is 1.
-    light.room = glm::dvec4(2.0 * view.light_reach / (view.fit.finest_texel * texels), view.parallel ? 1.0 : 0.0, 0.0);
+    light.room = glm::dvec4(2.0 * view.projection.light_reach / (view.fit.finest_texel * texels),
+                            view.projection.parallel ? 1.0 : 0.0, 0.0);
     return light;
 }
 

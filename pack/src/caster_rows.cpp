@@ -21,13 +21,14 @@ glm::vec4 composed(const glm::dvec4& row, const Rows3x4& t)
 } // namespace
 
 CasterRows::CasterRows(const View& view)
-    : count_(casterRowCount(view.orthographic)), per_metre_(1.0 / (view.metric.far_m - view.metric.near_m))
+    : count_(casterRowCount(view.projection.orthographic)),
+      per_metre_(1.0 / (view.projection.metric.far_m - view.projection.metric.near_m))
 {
     const auto row = [&](int i) {
-        return glm::row(view.clip_from_world, i);
+        return glm::row(view.projection.clip_from_world, i);
     };
-    const glm::dvec4 metric = view.metric.metric_ws;
-    if (view.orthographic) {
+    const glm::dvec4 metric = view.projection.metric.metric_ws;
+    if (view.projection.orthographic) {
         rows_ = {row(0), row(1), metric};
     } else {
         rows_ = {row(0), row(1), row(2), row(3), metric};
@@ -55,13 +56,13 @@ CasterId casterIdOf(const Plan& plan, const View& view, std::uint32_t object)
     CasterId caster;
     caster.ids = static_cast<float>(idsOf(options.format()));
     caster.id = static_cast<float>(objectIdsOf(plan, view.light)[object]) / caster.ids;
-    caster.depth_ws = view.metric.metric_ws;
+    caster.depth_ws = view.projection.metric.metric_ws;
     if (options.ids().depth == IdDepth::object) {
         // objectDepth() of gnomon/shared/object_ids.h, in double precision.
         const Aabb& box = plan.object_bounds[object];
         const glm::dvec3 centre = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max));
         const glm::dvec3 half = 0.5 * (glm::dvec3(box.max) - glm::dvec3(box.min));
-        const glm::dvec3 along(view.metric.metric_ws);
+        const glm::dvec3 along(view.projection.metric.metric_ws);
         const double extent =
             glm::dot(glm::abs(along), half) + double{shared::kObjectPad} * glm::length(along) * glm::length(half);
         caster.depth_ws = glm::dvec4(0.0, 0.0, 0.0, 0.5);

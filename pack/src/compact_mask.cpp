@@ -193,7 +193,9 @@ void listCompactMaskDraws(const Plan& plan, const CompactMaskRule& rule, glm::uv
             const bool is_own = light.options == options && light.outcome.hasMap();
             has_lights = has_lights || is_own;
             const auto views = std::span(plan.views).subspan(light.first_view, is_own ? light.view_count : 0);
-            draw.orthographic = draw.orthographic && std::ranges::all_of(views, &View::orthographic);
+            draw.orthographic = draw.orthographic && std::ranges::all_of(views, [](const View& view) {
+                                    return view.projection.orthographic;
+                                });
         }
         for (std::uint32_t layer = 0; has_lights && layer < rule.channels / shared::kLightsPerLayer; ++layer) {
             draw.layer = draw.first_light = layer;

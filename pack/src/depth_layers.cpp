@@ -43,10 +43,10 @@ shared::GpuDepthLayers worldDepthLayers(const View& view, const MomentOptions& o
 {
     shared::GpuDepthLayers layers{};
     for (std::uint32_t i = 0; i < shared::kDepthLayers; ++i) {
-        const double far_before = i > 0 ? view.layers[i - 1].far : 0.0;
+        const double far_before = i > 0 ? view.serves.layers[i - 1].far : 0.0;
         layers.layer[i] = i < options.layers ? shared::layerOfWorld(i == 0, static_cast<float>(far_before),
-                                                                    static_cast<float>(view.layers[i].near),
-                                                                    static_cast<float>(view.layers[i].far))
+                                                                    static_cast<float>(view.serves.layers[i].near),
+                                                                    static_cast<float>(view.serves.layers[i].far))
                                              : shared::noLayer();
     }
     return layers;
@@ -54,7 +54,7 @@ shared::GpuDepthLayers worldDepthLayers(const View& view, const MomentOptions& o
 
 std::uint32_t depthLayersSlot(const Plan& plan, std::uint32_t view)
 {
-    const MapId map = plan.views[view].map;
+    const MapId map = plan.views[view].place.map;
     return map ? map.index : view;
 }
 

@@ -35,7 +35,7 @@ bool joinsFrames(const LightPlan& light)
 void listFramePasses(const Plan& plan, std::vector<FramePass>& out)
 {
     out.clear();
-    if (std::ranges::any_of(plan.views, [](const View& view) { return view.gpu_cascade != kNoIndex; })) {
+    if (std::ranges::any_of(plan.views, [](const View& view) { return view.projection.gpu_cascade != kNoIndex; })) {
         out.push_back({FramePassKind::bounds});
     }
     for (std::uint32_t i = 0; i < plan.options->size(); ++i) {

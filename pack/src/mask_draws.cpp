@@ -108,7 +108,7 @@ bool isOrthographic(const Plan& plan, const ShownViews& shown)
 {
     const auto all = [&](std::uint32_t first, std::uint32_t count) {
         return std::all_of(plan.views.begin() + first, plan.views.begin() + first + count,
-                           [](const View& view) { return view.orthographic; });
+                           [](const View& view) { return view.projection.orthographic; });
     };
     return all(shown.first, shown.count) && all(shown.later_first, shown.later_count);
 }
@@ -116,7 +116,7 @@ bool isOrthographic(const Plan& plan, const ShownViews& shown)
 // Does a view serve all that is on its map? What the GPU has yet to fit will have a slice.
 bool servesAll(const View& view)
 {
-    return !view.slice.bounded() && !view.sector.bounded() && view.gpu_cascade == kNoIndex;
+    return !view.serves.slice.bounded() && !view.serves.sector.bounded() && view.projection.gpu_cascade == kNoIndex;
 }
 
 ToldApart toldApart(std::span<const View> views)
@@ -126,7 +126,8 @@ ToldApart toldApart(std::span<const View> views)
         return servesAll(first) ? ToldApart::alone : ToldApart::tests;
     }
     const bool slices = std::ranges::all_of(views, [&](const View& view) {
-        return !view.sector.bounded() && !view.slice.isRatio() && view.slice.axis == first.slice.axis;
+        return !view.serves.sector.bounded() && !view.serves.slice.isRatio() &&
+               view.serves.slice.axis == first.serves.slice.axis;
     });
     return slices ? ToldApart::slices : ToldApart::tests;
 }
@@ -250,7 +251,7 @@ ShownViews shownViews(const Plan& plan, const LightPlan& light, SunShown shown)
         return {light.first_view, light.view_count, 0, 0};
     }
     std::uint32_t earlier = 0;
-    while (earlier < light.view_count && plan.views[light.first_view + earlier].sun != SunPosition::later) {
+    while (earlier < light.view_count && plan.views[light.first_view + earlier].serves.sun != SunPosition::later) {
         ++earlier;
     }
     const std::uint32_t later = light.view_count - earlier;

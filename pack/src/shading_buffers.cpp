@@ -24,54 +24,57 @@ void placeParaboloid(const View& view, const glm::dmat4& clip_from_eye, shared::
     gpu.x = glm::row(clip_from_eye, 0);
     gpu.y = glm::row(clip_from_eye, 1);
     gpu.w = glm::row(clip_from_eye, 2);
-    const glm::dvec2 half = 0.5 * glm::dvec2(view.tile.width, view.tile.height);
-    const glm::dvec2 radius = half / view.clip_from_world[3][3];
-    gpu.plane_x = glm::dvec4(radius, glm::dvec2(view.tile.x, view.tile.y) + half);
+    const glm::dvec2 half = 0.5 * glm::dvec2(view.place.tile.width, view.place.tile.height);
+    const glm::dvec2 radius = half / view.projection.clip_from_world[3][3];
+    gpu.plane_x = glm::dvec4(radius, glm::dvec2(view.place.tile.x, view.place.tile.y) + half);
     gpu.plane_y = {0.0F, 0.0F, 0.0F, 1.0F};
     gpu.plane_w = {};
 }
 
 shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, double margin)
 {
-    const glm::dmat4 clip_from_eye = view.clip_from_world * world_from_eye;
+    const glm::dmat4 clip_from_eye = view.projection.clip_from_world * world_from_eye;
     const glm::dvec4 w = glm::row(clip_from_eye, 3);
     const auto texels = [&](int axis, double first, double size) {
         return glm::row(clip_from_eye, axis) * (0.5 * size) + w * (0.5 * size + first);
     };
-    const Tile& tile = view.tile;
+    const Tile& tile = view.place.tile;
     const double x0 = tile.x;
     const double y0 = tile.y;
     shared::GpuView gpu{};
     gpu.x = texels(0, x0, tile.width);
     gpu.y = texels(1, y0, tile.height);
     gpu.w = w;
-    gpu.metric = view.metric.metric_ws * world_from_eye; // a row vector
+    gpu.metric = view.projection.metric.metric_ws * world_from_eye; // a row vector
     gpu.tile = glm::dvec4(x0 + margin, y0 + margin, x0 + tile.width - margin, y0 + tile.height - margin);
-    gpu.scale = glm::dvec4(view.texel_m, view.metric.far_m - view.metric.near_m, tile.layer,
-                           view.part == TexelPart::second ? 1.0 : 0.0);
+    gpu.scale = glm::dvec4(view.projection.texel_m, view.projection.metric.far_m - view.projection.metric.near_m,
+                           tile.layer, view.place.part == TexelPart::second ? 1.0 : 0.0);
     const glm::dvec3 x = glm::dvec4(gpu.x);
     const glm::dvec3 y = glm::dvec4(gpu.y);
     const glm::dvec3 metric = glm::dvec4(gpu.metric);
     const glm::dvec3 across = glm::cross(x, y);
     constexpr double kAtOnce = 1e6; // one over the width of a blend that is next to none
-    gpu.plane_x = glm::dvec4(glm::cross(metric, y), !view.layered ? 0.0 : view.rim > 0.0 ? 1.0 / view.rim : kAtOnce);
+    gpu.plane_x = glm::dvec4(glm::cross(metric, y), !view.serves.layered    ? 0.0
+                                                    : view.serves.rim > 0.0 ? 1.0 / view.serves.rim
+                                                                            : kAtOnce);
     gpu.plane_y = glm::dvec4(glm::cross(x, metric), 0.0);
     gpu.plane_w = glm::dvec4(across, 1e-6 * glm::length(across));
     gpu.whole = glm::dvec4(x0, y0, x0 + tile.width, y0 + tile.height);
-    const ViewSlice& slice = view.slice;
+    const ViewSlice& slice = view.serves.slice;
     // A shader need not know infinities.
     constexpr double kEndless = 1e30;
     gpu.slice = glm::dvec4(std::max(slice.begin_m, -kEndless), std::min(slice.end_m, kEndless),
-                           slice.blend_m > 0.0   ? 1.0 / slice.blend_m
-                           : view.faded_in < 1.0 ? kAtOnce
-                                                 : 0.0,
-                           view.faded_in);
+                           slice.blend_m > 0.0          ? 1.0 / slice.blend_m
+                           : view.serves.faded_in < 1.0 ? kAtOnce
+                                                        : 0.0,
+                           view.serves.faded_in);
     gpu.slice_axis = slice.axis * world_from_eye; // whichever eye the plan was made for
-    gpu.sector_x = view.sector.x * world_from_eye;
-    gpu.sector_y = view.sector.y * world_from_eye;
-    gpu.sector_w = view.sector.w * world_from_eye;
-    gpu.more.z = static_cast<float>(view.parallel ? 1.0 : view.metric.near_m / view.metric.far_m);
-    if (view.paraboloid) {
+    gpu.sector_x = view.serves.sector.x * world_from_eye;
+    gpu.sector_y = view.serves.sector.y * world_from_eye;
+    gpu.sector_w = view.serves.sector.w * world_from_eye;
+    gpu.more.z = static_cast<float>(
+        view.projection.parallel ? 1.0 : view.projection.metric.near_m / view.projection.metric.far_m);
+    if (view.projection.paraboloid) {
         placeParaboloid(view, clip_from_eye, gpu);
     }
     return gpu;
@@ -158,9 +161,10 @@ void fillViews(const Plan& plan, std::span<const MapImage> maps, std::span<share
             gpuView(view, world_from_eye, tileMarginTexels(static_cast<double>(options.reach_texels())));
         gpu.more.x = options.filter() == Filter::lvsm ? static_cast<float>(depthLayersSlot(plan, i)) : 0.0F;
         const MapImage& image = maps[optionsIndexOf(plan, view)];
-        gpu.more.y = static_cast<float>(options.traits().integrates_light ? blockLevels(image.size_px)
-                                                                          : coarsestLevel(view.tile, image.levels));
-        if (view.gpu_cascade != kNoIndex) {
+        gpu.more.y =
+            static_cast<float>(options.traits().integrates_light ? blockLevels(image.size_px)
+                                                                 : coarsestLevel(view.place.tile, image.levels));
+        if (view.projection.gpu_cascade != kNoIndex) {
             gpu.slice.w = -static_cast<float>(i + 1);
         }
         views[i] = gpu;

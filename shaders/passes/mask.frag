@@ -50,7 +50,7 @@ layout(constant_id = 21) const bool kPaired = false; // two positions of the sun
 #ifdef GNOMON_ONE_VIEW // which leaves nothing to others
 #define GNOMON_LAYERED false
 #else
-layout(constant_id = 23) const bool kLayered = false; // views may be View::layered ones
+layout(constant_id = 23) const bool kLayered = false; // views may be ViewServes::layered ones
 layout(constant_id = 24) const bool kOrthographic = false; // all views are
 #define GNOMON_LAYERED (kLayered && !kOrthographic)
 #define GNOMON_ORTHOGRAPHIC_ONLY kOrthographic

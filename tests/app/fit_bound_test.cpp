@@ -122,7 +122,7 @@ Seen look(const std::vector<std::string>& view)
     frame.camera = camera;
     frame.lights = lights;
     frame.objects = &objects;
-    const glm::dvec2 texel = Planner(settings.shadow).plan(frame).views.at(0).texel_xy_m;
+    const glm::dvec2 texel = Planner(settings.shadow).plan(frame).views.at(0).projection.texel_xy_m;
     std::vector<double> found;
     for (const Pixel& pixel : seen.facing)
         found.push_back(density(glm::dmat2(1.0 / texel.x, 0.0, 0.0, 1.0 / texel.y) * pixel.metres_from_pixels));

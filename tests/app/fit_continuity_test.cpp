@@ -34,10 +34,10 @@ bool sees(const glm::dmat4& clip_from_world, const glm::dvec3& p)
 /// maps share. 0 where the point is behind the map.
 double densityAt(const View& view, const Light& sun, const glm::dvec3& p)
 {
-    const glm::dvec4 c = view.clip_from_world * glm::dvec4(p, 1.0);
+    const glm::dvec4 c = view.projection.clip_from_world * glm::dvec4(p, 1.0);
     if (!(c.w > 0.0))
         return 0.0;
-    const glm::dmat4 rows = glm::transpose(view.clip_from_world);
+    const glm::dmat4 rows = glm::transpose(view.projection.clip_from_world);
     const glm::dvec3 x = (glm::dvec3(rows[0]) * c.w - glm::dvec3(rows[3]) * c.x) / (c.w * c.w);
     const glm::dvec3 y = (glm::dvec3(rows[1]) * c.w - glm::dvec3(rows[3]) * c.y) / (c.w * c.w);
     // The smaller singular value of the two gradients, which have no part along the light.

@@ -88,23 +88,23 @@ TEST(PlanOfLayers, OtherFiltersHaveNone)
 TEST(Depths, GoToMetresAndBack)
 {
     View view;
-    view.metric.near_m = 2.0;
-    view.metric.far_m = 42.0;
-    view.metric.metric_ws = {0.0, 0.0, 1.0 / 40.0, -2.0 / 40.0};
+    view.projection.metric.near_m = 2.0;
+    view.projection.metric.far_m = 42.0;
+    view.projection.metric.metric_ws = {0.0, 0.0, 1.0 / 40.0, -2.0 / 40.0};
     MomentOptions options;
     EXPECT_DOUBLE_EQ(app::metresOf(view, options, 0.25), 12.0);
     EXPECT_DOUBLE_EQ(app::storedDepth(view, options, {5.0, 5.0, 12.0}), 0.25);
     EXPECT_EQ(app::storedDepth(view, options, {0.0, 0.0, 100.0}), 1.0);
     options.metric = DepthMetricKind::z_over_w;
     EXPECT_DOUBLE_EQ(app::metresOf(view, options, 0.25), 12.0); // under a parallel light the two are one
-    view.orthographic = false;
-    view.parallel = false;
+    view.projection.orthographic = false;
+    view.projection.parallel = false;
     EXPECT_DOUBLE_EQ(app::metresOf(view, options, 0.0), 2.0);
     EXPECT_DOUBLE_EQ(app::metresOf(view, options, 1.0), 42.0);
-    view.clip_from_world = glm::dmat4(0.0);
-    view.clip_from_world[2][2] = 42.0 / 40.0; // far / (far - near), as a perspective matrix has it
-    view.clip_from_world[3][2] = -84.0 / 40.0;
-    view.clip_from_world[2][3] = 1.0;
+    view.projection.clip_from_world = glm::dmat4(0.0);
+    view.projection.clip_from_world[2][2] = 42.0 / 40.0; // far / (far - near), as a perspective matrix has it
+    view.projection.clip_from_world[3][2] = -84.0 / 40.0;
+    view.projection.clip_from_world[2][3] = 1.0;
     for (const double metres : {2.0, 3.0, 12.0, 40.0}) {
         EXPECT_NEAR(app::metresOf(view, options, app::storedDepth(view, options, {0.0, 0.0, metres})), metres, 1e-9);
     }

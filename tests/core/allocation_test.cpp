@@ -123,7 +123,7 @@ TEST(Allocation, SteadyStatePlansOfSteppingSunsTakeNothingFromTheHeap)
             }
             lights[0].direction_ws = glm::normalize(glm::dvec3(0.4 + 0.02 * std::sin(turn), -1.0, 0.3));
             for (const View& view : planner.plan(frame).views)
-                drawn += view.redraw_kept ? 1 : 0;
+                drawn += view.contents.redraw_kept ? 1 : 0;
         };
         for (int step = 0; step < 600; ++step)
             play(step % 60);

@@ -95,7 +95,7 @@ TEST(AutoPrediction, IsTheJacobianOfTheMapsOwnMatrix)
             EXPECT_EQ(warp.warped(), strength > 1.0);
             const MapFrame frame = gnomon::frameOf(rectOf(warp, fit.region.outline()), 0.01, kSide, kBorder_texels);
             View view;
-            view.clip_from_world = clipFromWorld(fit.space, warp, frame, 1.0, 500.0);
+            view.projection.clip_from_world = clipFromWorld(fit.space, warp, frame, 1.0, 500.0);
             std::size_t next = 0;
             for (const SightPoint& point : sight.points()) {
                 std::vector<LitPoint> one;
@@ -170,8 +170,8 @@ TEST(AutoChoice, SpendsTheTexelsOfOneMapByEveryQuality)
             const Plan& plan = planner.plan(frameOf(stage));
             std::uint64_t texels = 0;
             for (const View& view : plan.views) {
-                texels += std::uint64_t{view.tile.width} * view.tile.height;
-                EXPECT_EQ(view.gpu_cascade != kNoIndex, quality == Quality::best);
+                texels += std::uint64_t{view.place.tile.width} * view.place.tile.height;
+                EXPECT_EQ(view.projection.gpu_cascade != kNoIndex, quality == Quality::best);
             }
             EXPECT_LE(texels, std::uint64_t{kSide} * kSide);
             EXPECT_GE(plan.views.size(), 1U);
@@ -187,7 +187,7 @@ TEST(AutoChoice, SpendsTheTexelsOfOneMapByEveryQuality)
     const Plan& plan = planner.plan(frameOf(stage));
     EXPECT_EQ(plan.lights[0].outcome.kind, OutcomeKind::ok);
     for (const View& view : plan.views)
-        EXPECT_EQ(view.gpu_cascade, kNoIndex);
+        EXPECT_EQ(view.projection.gpu_cascade, kNoIndex);
 }
 
 /// With map-size auto the texels of all partitions are counted, those that were asked for by name too.
@@ -209,7 +209,7 @@ TEST(AutoChoice, SpendsNoMoreThanItsTexels)
                 ASSERT_FALSE(plan.views.empty());
                 std::uint64_t spent = 0;
                 for (const View& view : plan.views)
-                    spent += std::uint64_t{view.tile.width} * view.tile.height;
+                    spent += std::uint64_t{view.place.tile.width} * view.place.tile.height;
                 EXPECT_LE(spent, texels);
                 EXPECT_GE(spent, texels * 4 / 10) << "or it would be left lying";
             }
@@ -244,8 +244,8 @@ TEST(AutoSize, OfALampFarOffIsSmallAndDoesNotFlicker)
         Frame frame = frameOf(stage);
         const Plan& plan = planner.plan(frame);
         EXPECT_EQ(plan.views.size(), 1U);
-        EXPECT_EQ(plan.views.at(0).tile.width, kSide >> plan.lights[0].choice.halvings);
-        return plan.views.at(0).tile.width;
+        EXPECT_EQ(plan.views.at(0).place.tile.width, kSide >> plan.lights[0].choice.halvings);
+        return plan.views.at(0).place.tile.width;
     };
     const auto freshSideAt = [&](double distance_m) {
         Planner planner(options);
@@ -282,7 +282,7 @@ TEST(AutoChoice, AFrameThatComesAgainDrawsNothing)
     (void)planner.plan(frameOf(stage));
     for (int again = 0; again < 3; ++again)
         for (const View& view : planner.plan(frameOf(stage)).views)
-            EXPECT_FALSE(view.redraw);
+            EXPECT_FALSE(view.contents.redraw);
 }
 
 struct Watched {
@@ -357,7 +357,7 @@ TEST(AutoChoice, LightsAreRememberedByTheirKeys)
     const Plan& second = planner.plan(frame);
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(second.lights[i].choice.error, first.lights[1 - i].choice.error);
-        EXPECT_FALSE(second.views[second.lights[i].first_view].redraw);
+        EXPECT_FALSE(second.views[second.lights[i].first_view].contents.redraw);
     }
 }
 

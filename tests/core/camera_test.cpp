@@ -98,8 +98,8 @@ TEST(Camera, OfOpenGlSeesWhatItSees)
         for (std::size_t view = 0; view < made[0].views.size(); ++view)
             for (int column = 0; column < 4; ++column)
                 for (int row = 0; row < 4; ++row)
-                    EXPECT_NEAR(made[0].views[view].clip_from_world[column][row],
-                                made[1].views[view].clip_from_world[column][row], 1e-6)
+                    EXPECT_NEAR(made[0].views[view].projection.clip_from_world[column][row],
+                                made[1].views[view].projection.clip_from_world[column][row], 1e-6)
                         << i;
     }
 }

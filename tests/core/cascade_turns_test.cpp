@@ -47,7 +47,8 @@ struct Street : Avenue {
 
 int waitingMaps(const Plan& plan)
 {
-    return static_cast<int>(std::ranges::count_if(plan.views, [](const View& view) { return view.waited > 0; }));
+    return static_cast<int>(
+        std::ranges::count_if(plan.views, [](const View& view) { return view.contents.waited > 0; }));
 }
 
 /// By a step of a walk, a thousandth of the scene's size long, and turned a little.
@@ -156,12 +157,15 @@ TEST(CascadeTurns, KeepToTheBudgetAndToTheLongestWait)
                 ASSERT_EQ(static_cast<int>(plan.pages[0].waiting_maps), waitingMaps(plan));
                 ASSERT_EQ(plan.pages[0].waiting_lights, waitingMaps(plan) > 0 ? 1U : 0U);
                 for (const View& view : plan.views) {
-                    ASSERT_TRUE(view.waited == 0 || std::isfinite(view.slice.begin_m)) << "the first never waits";
-                    longest = std::max(longest, view.waited);
-                    ASSERT_TRUE(view.waited == 0 || (!view.redraw && view.presumes == view.makes));
-                    ASSERT_EQ(view.slice.axis, plan.views.front().slice.axis) << "all serve slices of one camera";
-                    if (view.waited > 0) {
-                        waited.insert(view.map.index);
+                    ASSERT_TRUE(view.contents.waited == 0 || std::isfinite(view.serves.slice.begin_m))
+                        << "the first never waits";
+                    longest = std::max(longest, view.contents.waited);
+                    ASSERT_TRUE(view.contents.waited == 0 ||
+                                (!view.contents.redraw && view.contents.presumes == view.contents.makes));
+                    ASSERT_EQ(view.serves.slice.axis, plan.views.front().serves.slice.axis)
+                        << "all serve slices of one camera";
+                    if (view.contents.waited > 0) {
+                        waited.insert(view.place.map.index);
                     }
                 }
                 over += step > 0 && drawnTexels(plan) > budget ? 1 : 0;
@@ -272,20 +276,22 @@ TEST(CascadeTurns, AreForMapsThatThereAre)
         street.step(6);
         const Plan before = planner.plan(street.frame);
         ASSERT_GE(waitingMaps(before), 2);
-        const auto waits = std::ranges::find_if(before.views, [](const View& view) { return view.waited > 0; });
+        const auto waits =
+            std::ranges::find_if(before.views, [](const View& view) { return view.contents.waited > 0; });
         street.step(7);
         if (what == 1) {
             street.frame.cut = true;
         } else if (what == 2) {
             planner.reset();
         } else if (what == 3) {
-            planner.lost(waits->map);
+            planner.lost(waits->place.map);
         }
         const Plan& plan = planner.plan(street.frame);
         EXPECT_EQ(waitingMaps(plan) > 0, what == 0 || what == 3) << what;
-        const auto same = std::ranges::find(plan.views, waits->map, &View::map);
+        const auto same =
+            std::ranges::find(plan.views, waits->place.map, [](const View& view) { return view.place.map; });
         ASSERT_NE(same, plan.views.end());
-        EXPECT_TRUE(what != 3 || (same->waited == 0 && same->redraw));
+        EXPECT_TRUE(what != 3 || (same->contents.waited == 0 && same->contents.redraw));
     }
 }
 
@@ -302,13 +308,13 @@ TEST(CascadeTurns, TakeRoomOfAllMapsButTheFirst)
     const Plan& exact = without.plan(none.frame);
     ASSERT_EQ(test::bytesOf(exact), test::bytesOf(plain.plan(none.frame)));
     ASSERT_EQ(wide.views.size(), 4U);
-    EXPECT_EQ(wide.views[0].clip_from_world, exact.views[0].clip_from_world);
+    EXPECT_EQ(wide.views[0].projection.clip_from_world, exact.views[0].projection.clip_from_world);
     for (std::size_t i = 1; i < 4; ++i) {
-        const double times = wide.views[i].texel_m / exact.views[i].texel_m;
+        const double times = wide.views[i].projection.texel_m / exact.views[i].projection.texel_m;
         EXPECT_GT(times, 1.0) << i;
         EXPECT_LT(times, 1.25) << i;
-        EXPECT_EQ(wide.views[i].slice.begin_m, exact.views[i].slice.begin_m);
-        EXPECT_EQ(wide.views[i].slice.end_m, exact.views[i].slice.end_m);
+        EXPECT_EQ(wide.views[i].serves.slice.begin_m, exact.views[i].serves.slice.begin_m);
+        EXPECT_EQ(wide.views[i].serves.slice.end_m, exact.views[i].serves.slice.end_m);
     }
 }
 

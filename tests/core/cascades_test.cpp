@@ -64,15 +64,15 @@ TEST(Cascades, ShareTheViewWithOverlapsOnly)
     ASSERT_EQ(plan.views.size(), 4U);
     EXPECT_EQ(plan.pages[0].layers, 4U);
     for (std::size_t i = 0; i + 1 < plan.views.size(); ++i) {
-        const ViewSlice& here = plan.views[i].slice;
-        const ViewSlice& next = plan.views[i + 1].slice;
+        const ViewSlice& here = plan.views[i].serves.slice;
+        const ViewSlice& next = plan.views[i + 1].serves.slice;
         EXPECT_GT(here.end_m, 0.0);
         EXPECT_GT(next.blend_m, 0.0);
         EXPECT_NEAR(next.begin_m + next.blend_m, here.end_m, 1e-9 * here.end_m);
-        EXPECT_LT(plan.views[i].texel_m, plan.views[i + 1].texel_m);
+        EXPECT_LT(plan.views[i].projection.texel_m, plan.views[i + 1].projection.texel_m);
     }
-    EXPECT_FALSE(std::isfinite(plan.views.front().slice.begin_m));
-    EXPECT_FALSE(std::isfinite(plan.views.back().slice.end_m));
+    EXPECT_FALSE(std::isfinite(plan.views.front().serves.slice.begin_m));
+    EXPECT_FALSE(std::isfinite(plan.views.back().serves.slice.end_m));
 }
 
 TEST(Cascades, EndWhereTheyAreToldTo)
@@ -82,10 +82,10 @@ TEST(Cascades, EndWhereTheyAreToldTo)
     options.cascades.blend = 0.0;
     const Plan plan = Ground().plan(options);
     ASSERT_EQ(plan.views.size(), 3U);
-    EXPECT_EQ(plan.views[0].slice.end_m, 10.0);
-    EXPECT_EQ(plan.views[1].slice.begin_m, 10.0);
-    EXPECT_EQ(plan.views[1].slice.end_m, 40.0);
-    EXPECT_EQ(plan.views[2].slice.begin_m, 40.0);
+    EXPECT_EQ(plan.views[0].serves.slice.end_m, 10.0);
+    EXPECT_EQ(plan.views[1].serves.slice.begin_m, 10.0);
+    EXPECT_EQ(plan.views[1].serves.slice.end_m, 40.0);
+    EXPECT_EQ(plan.views[2].serves.slice.begin_m, 40.0);
 }
 
 TEST(Cascades, OneIsAsGoodAsNone)
@@ -97,10 +97,10 @@ TEST(Cascades, OneIsAsGoodAsNone)
     const Plan none = ground.plan(single);
     ASSERT_EQ(one.views.size(), 1U);
     // And a little better: it knows how near and how far there is something to see.
-    EXPECT_LE(one.views[0].texel_xy_m.x, none.views[0].texel_xy_m.x);
-    EXPECT_LE(one.views[0].texel_xy_m.y, none.views[0].texel_xy_m.y);
-    EXPECT_LE(one.views[0].caster_count, none.views[0].caster_count);
-    EXPECT_FALSE(one.views[0].slice.bounded());
+    EXPECT_LE(one.views[0].projection.texel_xy_m.x, none.views[0].projection.texel_xy_m.x);
+    EXPECT_LE(one.views[0].projection.texel_xy_m.y, none.views[0].projection.texel_xy_m.y);
+    EXPECT_LE(one.views[0].casters.count, none.views[0].casters.count);
+    EXPECT_FALSE(one.views[0].serves.slice.bounded());
 }
 
 TEST(Cascades, TheFirstWarpIsRuledByWhatThereIsToSee)
@@ -115,7 +115,7 @@ TEST(Cascades, TheFirstWarpIsRuledByWhatThereIsToSee)
     options.technique.fit = Fit::lispsm;
     const Plan plan = ground.plan(options);
     ASSERT_EQ(plan.views.size(), 2U);
-    const ViewSlice& first = plan.views[0].slice;
+    const ViewSlice& first = plan.views[0].serves.slice;
     // LiSPSM gives both ends equal errors, w_f^2 / z_f = 1 / z_n; what stands on the ground widens the outline a
     // little. Ruled by the air before the eye it would be 12.
     EXPECT_LT(plan.views[0].fit.strength, 1.25 * std::sqrt(first.end_m / nearest_m));
@@ -130,8 +130,8 @@ TEST(Cascades, OfAnOrthographicCameraAreEven)
     options.cascades.blend = 0.0;
     const Plan plan = ground.plan(options);
     ASSERT_EQ(plan.views.size(), 3U);
-    const double first = plan.views[0].slice.end_m;
-    const double second = plan.views[1].slice.end_m;
+    const double first = plan.views[0].serves.slice.end_m;
+    const double second = plan.views[1].serves.slice.end_m;
     // Lengths of the second and, by the even rule, of the first: what is seen begins at 2 first - second.
     double nearest = 1e9;
     Random random(3);
@@ -139,7 +139,7 @@ TEST(Cascades, OfAnOrthographicCameraAreEven)
         const glm::dvec3 p = random.inBox({-200, 0, -200}, {200, 0, 200});
         const glm::dvec4 c = ground.frame.camera.clip_from_world * glm::dvec4(p, 1.0);
         if (std::abs(c.x) < 1.0 && std::abs(c.y) < 1.0 && c.z > 0.0 && c.z < 1.0)
-            nearest = std::min(nearest, glm::dot(plan.views[1].slice.axis, glm::dvec4(p, 1.0)));
+            nearest = std::min(nearest, glm::dot(plan.views[1].serves.slice.axis, glm::dvec4(p, 1.0)));
     }
     EXPECT_NEAR(2.0 * first - second, nearest, 0.1 * (second - first));
 }
@@ -178,14 +178,14 @@ TEST(Cascades, HoldWhatTheyServe)
                 int served = 0;
                 for (std::uint32_t v = 0; v < light.view_count; ++v) {
                     const View& view = plan.views[light.first_view + v];
-                    if (!view.slice.holds(p))
+                    if (!view.serves.slice.holds(p))
                         continue;
                     ++served;
-                    const glm::dvec4 c = view.clip_from_world * glm::dvec4(p, 1.0);
+                    const glm::dvec4 c = view.projection.clip_from_world * glm::dvec4(p, 1.0);
                     const double edge = 1.0 - 2.0 * 4.0 / largestSide(options) + 1e-6;
                     ASSERT_LE(std::max(std::abs(c.x), std::abs(c.y)), c.w * edge);
-                    ASSERT_LE(glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0)), 1.0);
-                    ASSERT_GE(glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0)), 0.0);
+                    ASSERT_LE(glm::dot(view.projection.metric.metric_ws, glm::dvec4(p, 1.0)), 1.0);
+                    ASSERT_GE(glm::dot(view.projection.metric.metric_ws, glm::dvec4(p, 1.0)), 0.0);
                 }
                 if (light.view_count == options.cascades.count) { // none is left out for want of casters
                     ASSERT_GE(served, 1);
@@ -212,25 +212,25 @@ TEST(ViewsTogether, AreThoseOfOneLightInConsecutiveLayersThatAreDrawnAtOnce)
         return viewsTogether(changed, 0);
     };
     EXPECT_EQ(with([](View&) {}), 4U);
-    EXPECT_EQ(with([](View& view) { view.redraw = false; }), 2U);
+    EXPECT_EQ(with([](View& view) { view.contents.redraw = false; }), 2U);
     EXPECT_EQ(with([](View& view) { view.light = 1; }), 2U);
-    EXPECT_EQ(with([](View& view) { view.sun = SunPosition::later; }), 2U);
-    EXPECT_EQ(with([](View& view) { view.kept_layer = 0; }), 2U);
-    EXPECT_EQ(with([](View& view) { view.part = TexelPart::first; }), 2U);
-    EXPECT_EQ(with([](View& view) { ++view.tile.layer; }), 2U);
-    EXPECT_EQ(with([](View& view) { ++view.tile.x; }), 2U);
-    EXPECT_EQ(with([](View& view) { --view.tile.height; }), 2U);
-    EXPECT_EQ(with([](View& view) { view.orthographic = !view.orthographic; }), 2U);
-    EXPECT_EQ(with([](View& view) { view.clamp_near = !view.clamp_near; }), 2U);
-    EXPECT_EQ(with([](View& view) { view.gpu_cascade = 2; }), 2U);
+    EXPECT_EQ(with([](View& view) { view.serves.sun = SunPosition::later; }), 2U);
+    EXPECT_EQ(with([](View& view) { view.contents.kept_layer = 0; }), 2U);
+    EXPECT_EQ(with([](View& view) { view.place.part = TexelPart::first; }), 2U);
+    EXPECT_EQ(with([](View& view) { ++view.place.tile.layer; }), 2U);
+    EXPECT_EQ(with([](View& view) { ++view.place.tile.x; }), 2U);
+    EXPECT_EQ(with([](View& view) { --view.place.tile.height; }), 2U);
+    EXPECT_EQ(with([](View& view) { view.projection.orthographic = !view.projection.orthographic; }), 2U);
+    EXPECT_EQ(with([](View& view) { view.projection.clamp_near = !view.projection.clamp_near; }), 2U);
+    EXPECT_EQ(with([](View& view) { view.projection.gpu_cascade = 2; }), 2U);
 }
 
 TEST(ViewsTogether, OfAPlanThatIsDrawnWholeHoldViewsThatNeedNoDrawing)
 {
     const Ground ground;
     Plan plan = ground.plan(cascades(4));
-    plan.views[0].redraw = false;
-    plan.views[2].redraw = false;
+    plan.views[0].contents.redraw = false;
+    plan.views[2].contents.redraw = false;
     EXPECT_EQ(viewsTogether(plan, 0), 1U);
     EXPECT_EQ(viewsTogether(plan, 1), 1U);
     EXPECT_EQ(viewsTogether(plan, 0, true), 4U);

@@ -130,14 +130,14 @@ TEST(ConvergingPlan, beginsWithThePlanThatIsNotSoftened)
     const Plan expected = other.plan(yard.frame);
     ASSERT_EQ(first.views.size(), 1U);
     EXPECT_TRUE(first.cut);
-    EXPECT_EQ(first.views[0].clip_from_world, expected.views[0].clip_from_world);
+    EXPECT_EQ(first.views[0].projection.clip_from_world, expected.views[0].projection.clip_from_world);
     EXPECT_FALSE(planner.plan(yard.frame).cut);
-    EXPECT_NE(planner.plan(yard.frame).views[0].clip_from_world, first.views[0].clip_from_world);
+    EXPECT_NE(planner.plan(yard.frame).views[0].projection.clip_from_world, first.views[0].projection.clip_from_world);
     yard.frame.cut = true;
     const Plan& again = planner.plan(yard.frame);
     EXPECT_TRUE(again.cut);
     EXPECT_EQ(again.number, 4U);
-    EXPECT_EQ(again.views[0].clip_from_world, first.views[0].clip_from_world);
+    EXPECT_EQ(again.views[0].projection.clip_from_world, first.views[0].projection.clip_from_world);
 }
 
 TEST(ConvergingPlan, shinesFromTheLightsOwnDiscAndIsDrawnInEachFrame)
@@ -149,7 +149,7 @@ TEST(ConvergingPlan, shinesFromTheLightsOwnDiscAndIsDrawnInEachFrame)
     for (int i = 0; i < 40; ++i) {
         const Plan& plan = planner.plan(yard.frame);
         ASSERT_TRUE(plan.lights[0].sample.joined);
-        EXPECT_TRUE(plan.views[0].redraw);
+        EXPECT_TRUE(plan.views[0].contents.redraw);
         const glm::dvec3 from = plan.lights[0].sample.direction_ws;
         EXPECT_NEAR(glm::length(from), 1.0, 1e-9);
         widest = std::max(widest, std::acos(std::min(glm::dot(from, yard.lights[0].direction_ws), 1.0)));

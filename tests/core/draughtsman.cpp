@@ -19,24 +19,24 @@ std::uint64_t mixed(std::uint64_t a, std::uint64_t b)
 /// Of a view's matrix and metric, which all that is drawn depends on.
 std::uint64_t markOf(const View& view)
 {
-    std::uint64_t mark = view.clamp_near ? 1 : 0;
+    std::uint64_t mark = view.projection.clamp_near ? 1 : 0;
     for (int i = 0; i < 16; ++i)
-        mark = mixed(mark, std::bit_cast<std::uint64_t>(view.clip_from_world[i / 4][i % 4] + 0.0));
+        mark = mixed(mark, std::bit_cast<std::uint64_t>(view.projection.clip_from_world[i / 4][i % 4] + 0.0));
     for (int i = 0; i < 4; ++i)
-        mark = mixed(mark, std::bit_cast<std::uint64_t>(view.metric.metric_ws[i] + 0.0));
+        mark = mixed(mark, std::bit_cast<std::uint64_t>(view.projection.metric.metric_ws[i] + 0.0));
     return mark;
 }
 
 /// The texels around a box's image; all where the box reaches behind the light.
 TexelRect imageOf(const View& view, const Aabb& box)
 {
-    const double size = view.tile.width;
+    const double size = view.place.tile.width;
     glm::dvec2 low(1e9);
     glm::dvec2 high(-1e9);
     for (int i = 0; i < 8; ++i) {
-        const glm::dvec4 c = view.clip_from_world * glm::dvec4(glm::dvec3(box.corner(i)), 1.0);
+        const glm::dvec4 c = view.projection.clip_from_world * glm::dvec4(glm::dvec3(box.corner(i)), 1.0);
         if (c.w <= 0.0)
-            return {0, 0, view.tile.width, view.tile.height};
+            return {0, 0, view.place.tile.width, view.place.tile.height};
         low = glm::min(low, (glm::dvec2(c) / c.w * 0.5 + 0.5) * size);
         high = glm::max(high, (glm::dvec2(c) / c.w * 0.5 + 0.5) * size);
     }
@@ -59,12 +59,12 @@ bool overlap(const Tile& a, const Tile& b)
 
 TexelRect wholeOf(const View& view)
 {
-    return {0, 0, view.tile.width, view.tile.height};
+    return {0, 0, view.place.tile.width, view.place.tile.height};
 }
 
 std::span<const std::uint32_t> castersOf(const Plan& plan, const View& view)
 {
-    return std::span(plan.casters).subspan(view.first_caster, view.caster_count);
+    return std::span(plan.casters).subspan(view.casters.first, view.casters.count);
 }
 
 } // namespace
@@ -72,8 +72,8 @@ std::span<const std::uint32_t> castersOf(const Plan& plan, const View& view)
 void Draughtsman::Canvas::clear() const
 {
     const std::uint64_t mark = markOf(view);
-    for (std::uint32_t y = 0; y < view.tile.height; ++y)
-        for (std::uint32_t x = 0; x < view.tile.width; ++x)
+    for (std::uint32_t y = 0; y < view.place.tile.height; ++y)
+        for (std::uint32_t x = 0; x < view.place.tile.width; ++x)
             at(x, y) = mark;
 }
 
@@ -97,11 +97,11 @@ Draughtsman::Canvas Draughtsman::canvas(const Plan& plan, const View& view, bool
 {
     const std::uint32_t options = plan.lights[view.light].options;
     const MapPages& pages = plan.pages[options];
-    const std::uint32_t layer = kept ? view.kept_layer : view.tile.layer;
+    const std::uint32_t layer = kept ? view.contents.kept_layer : view.place.tile.layer;
     EXPECT_LT(layer, kept ? pages.kept_layers : pages.layers);
-    EXPECT_LE(view.tile.x + view.tile.width, pages.width);
-    EXPECT_LE(view.tile.y + view.tile.height, pages.height);
-    Page& page = pages_[{options, kept, view.part, layer}];
+    EXPECT_LE(view.place.tile.x + view.place.tile.width, pages.width);
+    EXPECT_LE(view.place.tile.y + view.place.tile.height, pages.height);
+    Page& page = pages_[{options, kept, view.place.part, layer}];
     if (page.texels.empty()) {
         page.side = pages.width;
         page.texels.resize(std::size_t{page.side} * page.side);
@@ -132,81 +132,82 @@ void Draughtsman::follow(const Plan& plan, const ObjectSet& set)
 
 void Draughtsman::followView(const Plan& plan, const View& view, const ObjectSet& set)
 {
-    ASSERT_LT(view.map.index, plan.map_count);
-    EXPECT_EQ(view.redraw, view.makes != view.presumes);
-    const auto known = generations_.find(view.map.index);
-    if (known != generations_.end() && known->second != view.map.generation) {
-        EXPECT_EQ(view.presumes != 0 && strict_, false);
+    ASSERT_LT(view.place.map.index, plan.map_count);
+    EXPECT_EQ(view.contents.redraw, view.contents.makes != view.contents.presumes);
+    const auto known = generations_.find(view.place.map.index);
+    if (known != generations_.end() && known->second != view.place.map.generation) {
+        EXPECT_EQ(view.contents.presumes != 0 && strict_, false);
     }
-    if (view.makes == 0)
+    if (view.contents.makes == 0)
         return;
-    const bool map_holds = holds(view.map, view.presumes);
+    const bool map_holds = holds(view.place.map, view.contents.presumes);
     if (strict_) {
-        ASSERT_EQ(map_holds, view.presumes != 0);
+        ASSERT_EQ(map_holds, view.contents.presumes != 0);
     }
-    if (map_holds && !view.redraw)
+    if (map_holds && !view.contents.redraw)
         return;
-    mended += view.presumes != 0 && !map_holds ? 1 : 0;
-    if (view.kept_layer == kNoIndex) {
+    mended += view.contents.presumes != 0 && !map_holds ? 1 : 0;
+    if (view.contents.kept_layer == kNoIndex) {
         const Canvas map = canvas(plan, view, false);
         map.clear();
         map.draw(castersOf(plan, view), set, wholeOf(view));
-        still_drawn += view.caster_count;
+        still_drawn += view.casters.count;
     } else {
         restore(plan, view, set, map_holds);
     }
-    note(view.map, view.makes);
+    note(view.place.map, view.contents.makes);
 }
 
 void Draughtsman::restore(const Plan& plan, const View& view, const ObjectSet& set, bool map_holds)
 {
     const std::span casters = castersOf(plan, view);
     const Canvas kept = canvas(plan, view, true);
-    const bool kept_holds = holds(view.kept_map, view.kept_presumes);
+    const bool kept_holds = holds(view.contents.kept_map, view.contents.kept_presumes);
     if (strict_) {
-        ASSERT_EQ(kept_holds, !view.redraw_kept);
+        ASSERT_EQ(kept_holds, !view.contents.redraw_kept);
     }
     if (!kept_holds) {
         kept.clear();
-        kept.draw(casters.first(view.still_count), set, wholeOf(view));
-        still_drawn += view.still_count;
-        note(view.kept_map, view.kept_makes);
+        kept.draw(casters.first(view.casters.still), set, wholeOf(view));
+        still_drawn += view.casters.still;
+        note(view.contents.kept_map, view.contents.kept_makes);
     }
     const bool in_part = map_holds && kept_holds;
     if (strict_ && !in_part) {
-        ASSERT_EQ(view.dirty.width, view.tile.width);
-        ASSERT_EQ(view.dirty.height, view.tile.height);
+        ASSERT_EQ(view.contents.dirty.width, view.place.tile.width);
+        ASSERT_EQ(view.contents.dirty.height, view.place.tile.height);
     }
-    const TexelRect dirty = in_part ? view.dirty : wholeOf(view);
+    const TexelRect dirty = in_part ? view.contents.dirty : wholeOf(view);
     ASSERT_FALSE(dirty.empty());
     const Canvas map = canvas(plan, view, false);
-    for (std::uint32_t y = 0; y < view.tile.height; ++y)
-        for (std::uint32_t x = 0; x < view.tile.width; ++x)
+    for (std::uint32_t y = 0; y < view.place.tile.height; ++y)
+        for (std::uint32_t x = 0; x < view.place.tile.width; ++x)
             if (inside(dirty, x, y))
                 map.at(x, y) = kept.at(x, y);
-    map.draw(casters.subspan(view.still_count), set, dirty);
-    moving_drawn += casters.size() - view.still_count;
+    map.draw(casters.subspan(view.casters.still), set, dirty);
+    moving_drawn += casters.size() - view.casters.still;
     dirty_texels += std::uint64_t{dirty.width} * dirty.height;
 }
 
 void Draughtsman::check(const Plan& plan, const ObjectSet& set) const
 {
     for (const View& view : plan.views) {
-        if (view.makes == 0)
+        if (view.contents.makes == 0)
             continue;
-        const auto page = pages_.find({plan.lights[view.light].options, false, view.part, view.tile.layer});
+        const auto page = pages_.find({plan.lights[view.light].options, false, view.place.part, view.place.tile.layer});
         ASSERT_NE(page, pages_.end());
         View alone = view;
-        alone.tile = {0, 0, 0, view.tile.width, view.tile.height};
-        Page anew{view.tile.width, Image(std::size_t{view.tile.width} * view.tile.height)};
+        alone.place.tile = {0, 0, 0, view.place.tile.width, view.place.tile.height};
+        Page anew{view.place.tile.width, Image(std::size_t{view.place.tile.width} * view.place.tile.height)};
         const Canvas canvas{anew, alone};
         canvas.clear();
         canvas.draw(castersOf(plan, view), set, wholeOf(view));
-        for (std::uint32_t y = 0; y < view.tile.height; ++y) {
-            const auto row = page->second.texels.begin() +
-                             static_cast<std::ptrdiff_t>((view.tile.y + y) * page->second.side + view.tile.x);
-            ASSERT_TRUE(std::equal(row, row + view.tile.width,
-                                   anew.texels.begin() + static_cast<std::ptrdiff_t>(y * view.tile.width)))
+        for (std::uint32_t y = 0; y < view.place.tile.height; ++y) {
+            const auto row =
+                page->second.texels.begin() +
+                static_cast<std::ptrdiff_t>((view.place.tile.y + y) * page->second.side + view.place.tile.x);
+            ASSERT_TRUE(std::equal(row, row + view.place.tile.width,
+                                   anew.texels.begin() + static_cast<std::ptrdiff_t>(y * view.place.tile.width)))
                 << "light " << view.light << " row " << y;
         }
     }
@@ -214,7 +215,7 @@ void Draughtsman::check(const Plan& plan, const ObjectSet& set) const
 
 void Draughtsman::lose(const View& view, bool kept)
 {
-    held_.erase(kept ? view.kept_map.index : view.map.index);
+    held_.erase(kept ? view.contents.kept_map.index : view.place.map.index);
 }
 
 void expectOrder(const Plan& plan, const ObjectSet& set)
@@ -222,30 +223,33 @@ void expectOrder(const Plan& plan, const ObjectSet& set)
     std::set<std::uint32_t> names;
     for (std::size_t i = 0; i < plan.views.size(); ++i) {
         const View& view = plan.views[i];
-        EXPECT_TRUE(names.insert(view.map.index).second);
+        EXPECT_TRUE(names.insert(view.place.map.index).second);
         for (std::size_t j = 0; j < i; ++j) {
             const View& other = plan.views[j];
             if (plan.lights[other.light].options != plan.lights[view.light].options)
                 continue;
-            EXPECT_FALSE(other.part == view.part && overlap(other.tile, view.tile));
-            const bool shares =
-                view.kept_layer != kNoIndex && other.kept_layer == view.kept_layer &&
-                (other.part == view.part || other.part == TexelPart::whole || view.part == TexelPart::whole);
-            EXPECT_FALSE(shares && overlap({0, other.tile.x, other.tile.y, other.tile.width, other.tile.height},
-                                           {0, view.tile.x, view.tile.y, view.tile.width, view.tile.height}));
+            EXPECT_FALSE(other.place.part == view.place.part && overlap(other.place.tile, view.place.tile));
+            const bool shares = view.contents.kept_layer != kNoIndex &&
+                                other.contents.kept_layer == view.contents.kept_layer &&
+                                (other.place.part == view.place.part || other.place.part == TexelPart::whole ||
+                                 view.place.part == TexelPart::whole);
+            EXPECT_FALSE(
+                shares &&
+                overlap({0, other.place.tile.x, other.place.tile.y, other.place.tile.width, other.place.tile.height},
+                        {0, view.place.tile.x, view.place.tile.y, view.place.tile.width, view.place.tile.height}));
         }
-        const auto first = plan.casters.begin() + view.first_caster;
-        const auto end = first + view.caster_count;
-        if (view.kept_layer == kNoIndex) {
+        const auto first = plan.casters.begin() + view.casters.first;
+        const auto end = first + view.casters.count;
+        if (view.contents.kept_layer == kNoIndex) {
             EXPECT_TRUE(std::is_sorted(first, end));
-            EXPECT_FALSE(view.redraw_kept);
-            EXPECT_TRUE(view.dirty.empty());
-            EXPECT_FALSE(view.kept_map);
+            EXPECT_FALSE(view.contents.redraw_kept);
+            EXPECT_TRUE(view.contents.dirty.empty());
+            EXPECT_FALSE(view.contents.kept_map);
             continue;
         }
-        EXPECT_TRUE(names.insert(view.kept_map.index).second);
-        ASSERT_LE(view.still_count, view.caster_count);
-        const auto moving = first + view.still_count;
+        EXPECT_TRUE(names.insert(view.contents.kept_map.index).second);
+        ASSERT_LE(view.casters.still, view.casters.count);
+        const auto moving = first + view.casters.still;
         EXPECT_TRUE(std::is_sorted(first, moving));
         EXPECT_TRUE(std::is_sorted(moving, end));
         EXPECT_TRUE(std::none_of(first, moving, [&](std::uint32_t c) { return set.flags(c).dynamic; }));

@@ -17,7 +17,7 @@ namespace gnomon::test {
 class Draughtsman {
 public:
     /// A strict one expects of every plan that it presumes what is there. One that isn't may have skipped plans: it
-    /// draws whole what it does not have, as View::presumes has it.
+    /// draws whole what it does not have, as ViewContents::presumes has it.
     explicit Draughtsman(bool strict = true) : strict_(strict) {}
 
     void follow(const Plan& plan, const ObjectSet& set);
@@ -45,7 +45,7 @@ private:
         const View& view;
         std::uint64_t& at(std::uint32_t x, std::uint32_t y) const
         {
-            return page.texels[std::size_t{view.tile.y + y} * page.side + view.tile.x + x];
+            return page.texels[std::size_t{view.place.tile.y + y} * page.side + view.place.tile.x + x];
         }
         void clear() const;
         void draw(std::span<const std::uint32_t> casters, const ObjectSet& set, const TexelRect& scissor) const;

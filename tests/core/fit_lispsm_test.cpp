@@ -124,8 +124,9 @@ TEST(FitLispsm, ADuelIsDrawnAsUniformBitForBit)
             EXPECT_EQ(plan.views[0].fit.strength, 1.0);
             const Plan uniform = stage.plan(Fit::uniform);
             EXPECT_EQ(uniform.lights[0].outcome.kind, OutcomeKind::ok);
-            EXPECT_EQ(
-                std::memcmp(&plan.views[0].clip_from_world, &uniform.views[0].clip_from_world, sizeof(glm::dmat4)), 0);
+            EXPECT_EQ(std::memcmp(&plan.views[0].projection.clip_from_world,
+                                  &uniform.views[0].projection.clip_from_world, sizeof(glm::dmat4)),
+                      0);
         }
 }
 
@@ -221,12 +222,12 @@ TEST(FitNoLoss, InADuelOverWhatStandsTheWarpFallsBack)
         stage.set.add(test::boxAt({12.0 * i, 4.0, -30.0 - 9.0 * std::abs(i)}, {1.5, 4.0, 1.5}));
     }
     const Plan uniform = stage.plan(Fit::uniform);
-    const double area = uniform.views[0].texel_xy_m.x * uniform.views[0].texel_xy_m.y;
+    const double area = uniform.views[0].projection.texel_xy_m.x * uniform.views[0].projection.texel_xy_m.y;
     for (const Fit fit : {Fit::lispsm, Fit::tsm, Fit::lispsm_simple}) {
         const Plan plan = stage.plan(fit);
         const View& view = plan.views[0];
         if (plan.lights[0].outcome.kind == OutcomeKind::fallback) {
-            EXPECT_EQ(view.clip_from_world, uniform.views[0].clip_from_world) << nameOf(fit);
+            EXPECT_EQ(view.projection.clip_from_world, uniform.views[0].projection.clip_from_world) << nameOf(fit);
             continue;
         }
         EXPECT_LT(view.fit.finest_texel.x * view.fit.finest_texel.y, area) << nameOf(fit) << " gains somewhere";

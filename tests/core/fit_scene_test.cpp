@@ -58,18 +58,18 @@ TEST(FitScene, TheLightStandsWhereEquation6PutsIt)
         sum += glm::dvec3(box.corner(i));
     }
     const glm::dvec3 dir = field.lights[0].direction_ws;
-    const glm::dvec3 back = sum / 8.0 - view.light_place_ws;
+    const glm::dvec3 back = sum / 8.0 - view.projection.light_place_ws;
     const double distance = glm::dot(back, dir);
     EXPECT_LT(glm::length(back - dir * distance), 1e-9) << "backed out against the light and nowhere else";
     // As far as it needs to be for all corners to be in front, and no farther but for rounding.
     double nearest = 1e9;
     for (int i = 0; i < 8; ++i) {
-        nearest = std::min(nearest, glm::dot(dir, glm::dvec3(box.corner(i)) - view.light_place_ws));
+        nearest = std::min(nearest, glm::dot(dir, glm::dvec3(box.corner(i)) - view.projection.light_place_ws));
     }
     EXPECT_GT(nearest, 0.0);
     EXPECT_LT(nearest, 0.05);
-    EXPECT_NEAR(view.metric.near_m, 0.0, 1e-9) << "depths are counted from there";
-    EXPECT_TRUE(view.orthographic);
+    EXPECT_NEAR(view.projection.metric.near_m, 0.0, 1e-9) << "depths are counted from there";
+    EXPECT_TRUE(view.projection.orthographic);
 }
 
 TEST(FitScene, NoCameraMovesItAndNothingIsDrawnAgain)
@@ -78,7 +78,7 @@ TEST(FitScene, NoCameraMovesItAndNothingIsDrawnAgain)
         Field field;
         Planner planner(ofScene(filter));
         const View first = planner.plan(field.frame).views.at(0);
-        EXPECT_TRUE(first.redraw);
+        EXPECT_TRUE(first.contents.redraw);
         const std::vector<std::uint32_t> casters = planner.plan(field.frame).casters;
         EXPECT_EQ(casters.size(), field.set.size()) << "everything is drawn, in sight or not";
         Random random(5);
@@ -89,10 +89,10 @@ TEST(FitScene, NoCameraMovesItAndNothingIsDrawnAgain)
                 continue;
             }
             const View& view = plan.views.at(0);
-            EXPECT_FALSE(view.redraw) << nameOf(filter) << " " << i;
-            EXPECT_EQ(view.clip_from_world, first.clip_from_world);
-            EXPECT_EQ(view.metric.metric_ws, first.metric.metric_ws);
-            EXPECT_EQ(view.light_place_ws, first.light_place_ws);
+            EXPECT_FALSE(view.contents.redraw) << nameOf(filter) << " " << i;
+            EXPECT_EQ(view.projection.clip_from_world, first.projection.clip_from_world);
+            EXPECT_EQ(view.projection.metric.metric_ws, first.projection.metric.metric_ws);
+            EXPECT_EQ(view.projection.light_place_ws, first.projection.light_place_ws);
             EXPECT_EQ(plan.casters, casters);
         }
         // The uniform fit follows the camera: what must fail does.
@@ -102,7 +102,7 @@ TEST(FitScene, NoCameraMovesItAndNothingIsDrawnAgain)
         field.look({0, 5, 20});
         (void)other.plan(field.frame);
         field.look({4, 6, 15});
-        EXPECT_TRUE(other.plan(field.frame).views.at(0).redraw);
+        EXPECT_TRUE(other.plan(field.frame).views.at(0).contents.redraw);
     }
 }
 
@@ -110,20 +110,20 @@ TEST(FitScene, WhatMovesInsideLeavesTheMatricesAndWhatLeavesMakesRoomOnce)
 {
     Field field;
     Planner planner(ofScene());
-    const glm::dmat4 first = planner.plan(field.frame).views.at(0).clip_from_world;
+    const glm::dmat4 first = planner.plan(field.frame).views.at(0).projection.clip_from_world;
     field.set.update(field.kite, test::boxAt({20, 30, 5}, {1, 1, 1}));
     const View moved = planner.plan(field.frame).views.at(0);
-    EXPECT_EQ(moved.clip_from_world, first);
-    EXPECT_TRUE(moved.redraw);
+    EXPECT_EQ(moved.projection.clip_from_world, first);
+    EXPECT_TRUE(moved.contents.redraw);
     field.set.update(field.kite, test::boxAt({20, 44, 5}, {1, 1, 1}));
-    const glm::dmat4 second = planner.plan(field.frame).views.at(0).clip_from_world;
+    const glm::dmat4 second = planner.plan(field.frame).views.at(0).projection.clip_from_world;
     EXPECT_NE(second, first);
     for (const double height : {44.5, 45.0, 46.0}) {
         field.set.update(field.kite, test::boxAt({20, height, 5}, {1, 1, 1}));
-        EXPECT_EQ(planner.plan(field.frame).views.at(0).clip_from_world, second) << height;
+        EXPECT_EQ(planner.plan(field.frame).views.at(0).projection.clip_from_world, second) << height;
     }
     planner.reset();
-    EXPECT_NE(planner.plan(field.frame).views.at(0).clip_from_world, second) << "reset() makes it anew";
+    EXPECT_NE(planner.plan(field.frame).views.at(0).projection.clip_from_world, second) << "reset() makes it anew";
 }
 
 TEST(FitScene, HoldsEveryCasterAndReceiver)
@@ -144,10 +144,10 @@ TEST(FitScene, HoldsEveryCasterAndReceiver)
                     continue;
                 }
                 for (int i = 0; i < 8; ++i) {
-                    const glm::dvec4 clip =
-                        view.clip_from_world * glm::dvec4(glm::dvec3(scene.set.bounds(object).corner(i)), 1.0);
+                    const glm::dvec4 clip = view.projection.clip_from_world *
+                                            glm::dvec4(glm::dvec3(scene.set.bounds(object).corner(i)), 1.0);
                     // With room for the kernel on all sides.
-                    const double margin = 2.0 * (resolve(scene.options)->borderOf(view.tile.width) - 0.01) / size;
+                    const double margin = 2.0 * (resolve(scene.options)->borderOf(view.place.tile.width) - 0.01) / size;
                     ASSERT_LE(std::abs(clip.x), 1.0 - margin) << seed;
                     ASSERT_LE(std::abs(clip.y), 1.0 - margin) << seed;
                     ASSERT_GE(clip.z, 0.0) << seed;
@@ -155,9 +155,9 @@ TEST(FitScene, HoldsEveryCasterAndReceiver)
                 }
             }
             for (std::uint32_t object = 0; object < scene.set.size(); ++object) {
-                const bool drawn = std::find(plan.casters.begin() + view.first_caster,
-                                             plan.casters.begin() + view.first_caster + view.caster_count,
-                                             object) != plan.casters.begin() + view.first_caster + view.caster_count;
+                const bool drawn = std::find(plan.casters.begin() + view.casters.first,
+                                             plan.casters.begin() + view.casters.first + view.casters.count,
+                                             object) != plan.casters.begin() + view.casters.first + view.casters.count;
                 if (scene.set.alive(object) && scene.set.flags(object).casts && !scene.set.bounds(object).empty()) {
                     ASSERT_TRUE(drawn) << seed << " " << object;
                 }

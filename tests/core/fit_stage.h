@@ -75,7 +75,7 @@ struct FitStage {
 /// Where a point is in a map, in [-1, 1].
 inline glm::dvec2 mapPlace(const View& view, const glm::dvec3& p_ws)
 {
-    const glm::dvec4 c = view.clip_from_world * glm::dvec4(p_ws, 1.0);
+    const glm::dvec4 c = view.projection.clip_from_world * glm::dvec4(p_ws, 1.0);
     return glm::dvec2(c) / c.w;
 }
 

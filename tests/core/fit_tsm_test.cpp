@@ -116,9 +116,9 @@ TEST(FitTsm, SegmentsAreMapsOfOneTurnWhoseNearTexelsAreFinest)
     ASSERT_GE(plan.views.size(), 3U); // the last may have no caster
     for (std::size_t i = 0; i < plan.views.size(); ++i) {
         const View& view = plan.views[i];
-        EXPECT_TRUE(view.orthographic);
-        EXPECT_EQ(view.slice.axis, plan.views[0].slice.axis);
-        EXPECT_TRUE(i == 0 || view.texel_m > plan.views[i - 1].texel_m);
+        EXPECT_TRUE(view.projection.orthographic);
+        EXPECT_EQ(view.serves.slice.axis, plan.views[0].serves.slice.axis);
+        EXPECT_TRUE(i == 0 || view.projection.texel_m > plan.views[i - 1].projection.texel_m);
     }
 }
 

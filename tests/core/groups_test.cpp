@@ -152,7 +152,7 @@ TEST(Groups, ThatChangeAreDrawnAtOnce)
             Planner planner(options);
             const auto redraws = [&] {
                 const Plan& plan = hall.plan(planner);
-                return std::ranges::any_of(plan.views, [](const View& view) { return view.redraw; });
+                return std::ranges::any_of(plan.views, [](const View& view) { return view.contents.redraw; });
             };
             EXPECT_TRUE(redraws());
             EXPECT_FALSE(redraws());
@@ -183,7 +183,7 @@ TEST(Groups, AnotherGroupsBoxAtTheLampLeavesItsNearDistance)
         Planner planner(options);
         double near_m = 1e9;
         for (const View& view : hall.plan(planner).views) {
-            near_m = std::min(near_m, view.metric.near_m);
+            near_m = std::min(near_m, view.projection.metric.near_m);
         }
         return near_m;
     };

@@ -37,13 +37,13 @@ TEST(HostilePlanner, LosesOnlyMapsThatThereAre)
 {
     Meadow meadow;
     Planner planner({.map_size = 64});
-    const MapId map = meadow.plan(planner).views.at(0).map;
+    const MapId map = meadow.plan(planner).views.at(0).place.map;
     for (const MapId wrong : {MapId{}, MapId{map.index, map.generation + 1}, MapId{1U << 31, 0}}) {
         planner.lost(wrong);
     }
-    EXPECT_FALSE(meadow.plan(planner).views[0].redraw);
+    EXPECT_FALSE(meadow.plan(planner).views[0].contents.redraw);
     planner.lost(map);
-    EXPECT_TRUE(meadow.plan(planner).views[0].redraw);
+    EXPECT_TRUE(meadow.plan(planner).views[0].contents.redraw);
 }
 
 TEST(HostileFrame, WithoutObjectsIsDegenerate)
@@ -150,8 +150,8 @@ TEST(HostileLights, OfAnyNumbersAreDegenerateOrSoundAndLeaveTheOthersAlone)
                         SCOPED_TRACE("number " + std::to_string(number) + " is " + std::to_string(value));
                         expectSound(plan, 2);
                         ASSERT_FALSE(plan.views.empty());
-                        EXPECT_EQ(plan.views[0].clip_from_world, expected.clip_from_world);
-                        EXPECT_EQ(plan.views[0].caster_count, expected.caster_count);
+                        EXPECT_EQ(plan.views[0].projection.clip_from_world, expected.projection.clip_from_world);
+                        EXPECT_EQ(plan.views[0].casters.count, expected.casters.count);
                     }
                 }
             }
@@ -215,7 +215,7 @@ TEST(HostileLights, OfOneKeyEachHaveTheirOwnMaps)
             expectSound(plan, meadow.lights.size());
             std::vector<std::uint32_t> maps;
             for (const View& view : plan.views) {
-                maps.push_back(view.map.index);
+                maps.push_back(view.place.map.index);
             }
             std::ranges::sort(maps);
             EXPECT_EQ(std::ranges::adjacent_find(maps), maps.end());

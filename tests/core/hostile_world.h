@@ -53,17 +53,18 @@ inline bool isFinite(const glm::dmat4& matrix)
 
 inline void expectDrawable(const Plan& plan, const View& view)
 {
-    EXPECT_TRUE(isFinite(view.clip_from_world));
-    EXPECT_TRUE(std::isfinite(view.metric.near_m) && view.metric.far_m > view.metric.near_m);
-    EXPECT_TRUE(std::isfinite(glm::dot(view.metric.metric_ws, glm::dvec4(1.0))));
-    EXPECT_TRUE(std::isfinite(view.texel_m) && view.texel_m > 0.0);
-    EXPECT_GE(view.tile.width, 8U);
+    EXPECT_TRUE(isFinite(view.projection.clip_from_world));
+    EXPECT_TRUE(std::isfinite(view.projection.metric.near_m) &&
+                view.projection.metric.far_m > view.projection.metric.near_m);
+    EXPECT_TRUE(std::isfinite(glm::dot(view.projection.metric.metric_ws, glm::dvec4(1.0))));
+    EXPECT_TRUE(std::isfinite(view.projection.texel_m) && view.projection.texel_m > 0.0);
+    EXPECT_GE(view.place.tile.width, 8U);
     const MapPages& pages = plan.pages.at(plan.lights.at(view.light).options);
-    EXPECT_LE(view.tile.x + view.tile.width, pages.width);
-    EXPECT_LE(view.tile.y + view.tile.height, pages.height);
-    EXPECT_LT(view.tile.layer, pages.layers);
-    EXPECT_LE(view.first_caster + view.caster_count, plan.casters.size());
-    EXPECT_FALSE(std::isnan(view.slice.begin_m) || std::isnan(view.slice.end_m));
+    EXPECT_LE(view.place.tile.x + view.place.tile.width, pages.width);
+    EXPECT_LE(view.place.tile.y + view.place.tile.height, pages.height);
+    EXPECT_LT(view.place.tile.layer, pages.layers);
+    EXPECT_LE(view.casters.first + view.casters.count, plan.casters.size());
+    EXPECT_FALSE(std::isnan(view.serves.slice.begin_m) || std::isnan(view.serves.slice.end_m));
 }
 
 /// What a light has is drawable, and what it has not has a reason.

@@ -38,12 +38,12 @@ struct Ground {
 
 double metricAt(const View& view, const glm::dvec3& p)
 {
-    return glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0));
+    return glm::dot(view.projection.metric.metric_ws, glm::dvec4(p, 1.0));
 }
 
 double spreadOverGround(const View& view)
 {
-    const double range_m = view.metric.far_m - view.metric.near_m;
+    const double range_m = view.projection.metric.far_m - view.projection.metric.near_m;
     double low = 1e9;
     double high = -1e9;
     for (const glm::dvec3& p :
@@ -65,14 +65,16 @@ TEST(LevelDepth, LevelGroundIsLevelInDepthUnderASlantedSun)
     // The share of the axes is rounded to 1/128, and boxes on the ground pull at the plane a little.
     EXPECT_LT(spreadOverGround(level), 2.0);
     // Less range is more digits in every format.
-    EXPECT_LT(level.metric.far_m - level.metric.near_m, 0.5 * (along_axis.metric.far_m - along_axis.metric.near_m));
+    EXPECT_LT(level.projection.metric.far_m - level.projection.metric.near_m,
+              0.5 * (along_axis.projection.metric.far_m - along_axis.projection.metric.near_m));
 }
 
 TEST(LevelDepth, IsForMapsThatAreAveraged)
 {
     Ground ground;
     const View bare = ground.plan({}, Filter::hard).views.at(0);
-    const glm::dvec3 gradient = glm::dvec3(bare.metric.metric_ws) * (bare.metric.far_m - bare.metric.near_m);
+    const glm::dvec3 gradient =
+        glm::dvec3(bare.projection.metric.metric_ws) * (bare.projection.metric.far_m - bare.projection.metric.near_m);
     EXPECT_LT(glm::length(gradient - kSun), 1e-9);
 }
 
@@ -80,11 +82,11 @@ TEST(LevelDepth, GrowsByOneMetrePerMetreAlongTheRay)
 {
     Ground ground;
     const View view = ground.plan({}).views.at(0);
-    const double range_m = view.metric.far_m - view.metric.near_m;
+    const double range_m = view.projection.metric.far_m - view.projection.metric.near_m;
     for (const glm::dvec3& p : {glm::dvec3(0, 0, 0), glm::dvec3(30, 2, -20), glm::dvec3(-7, 3, 11)})
         EXPECT_NEAR((metricAt(view, p + kSun * 2.5) - metricAt(view, p)) * range_m, 2.5, 1e-9);
     // The rasteriser's depth is the metric still, so a bare depth map holds it.
-    const glm::dvec4 clip = view.clip_from_world * glm::dvec4(3, 1, 2, 1);
+    const glm::dvec4 clip = view.projection.clip_from_world * glm::dvec4(3, 1, 2, 1);
     EXPECT_NEAR(clip.z / clip.w, metricAt(view, {3, 1, 2}), 1e-12);
 }
 
@@ -103,17 +105,18 @@ TEST(LevelDepth, LeavesSpotsAloneAndObjectsThatMove)
     const View before = ground.plan({}).views.at(0);
     ground.set.add({{-30, 0, 20}, {-20, 25, 30}}, {true, true, true});
     const View after = ground.plan({}).views.at(0);
-    const double before_m = before.metric.far_m - before.metric.near_m;
-    const double after_m = after.metric.far_m - after.metric.near_m;
-    EXPECT_LT(
-        glm::length(glm::dvec3(before.metric.metric_ws) * before_m - glm::dvec3(after.metric.metric_ws) * after_m),
-        1e-12);
+    const double before_m = before.projection.metric.far_m - before.projection.metric.near_m;
+    const double after_m = after.projection.metric.far_m - after.projection.metric.near_m;
+    EXPECT_LT(glm::length(glm::dvec3(before.projection.metric.metric_ws) * before_m -
+                          glm::dvec3(after.projection.metric.metric_ws) * after_m),
+              1e-12);
     ground.lights[0] = test::sun(kSun);
     ground.lights[0].type = LightType::spot;
     ground.lights[0].position_ws = {-8, 12, 4};
     ground.lights[0].outer_half_angle_rad = 0.6;
     const View spot = ground.plan({}).views.at(0);
-    const glm::dvec3 gradient = glm::dvec3(spot.metric.metric_ws) * (spot.metric.far_m - spot.metric.near_m);
+    const glm::dvec3 gradient =
+        glm::dvec3(spot.projection.metric.metric_ws) * (spot.projection.metric.far_m - spot.projection.metric.near_m);
     EXPECT_LT(glm::length(gradient - kSun), 1e-9);
 }
 

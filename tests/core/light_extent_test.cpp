@@ -65,7 +65,7 @@ TEST(LightExtent, IsWhereThePlannersMapsBegin)
         ASSERT_EQ(plan.views.size(), 1U);
         // Bounds around the light do not tell how near the caster is.
         const LightExtent extent = extentOf(lights[0], set.bounds());
-        EXPECT_EQ(plan.views[0].metric.near_m, near_m > 0.0 ? near_m : 0.00025 * extent.reach_m);
+        EXPECT_EQ(plan.views[0].projection.metric.near_m, near_m > 0.0 ? near_m : 0.00025 * extent.reach_m);
     }
 }
 
@@ -91,9 +91,9 @@ TEST(NearDistance, IsBeforeTheNearestBoundsOfACaster)
             Planner planner(options);
             const Plan& plan = planner.plan(frame);
             ASSERT_FALSE(plan.views.empty());
-            double nearest_m = plan.views[0].metric.near_m;
+            double nearest_m = plan.views[0].projection.metric.near_m;
             for (const View& view : plan.views) {
-                nearest_m = std::min(nearest_m, view.metric.near_m);
+                nearest_m = std::min(nearest_m, view.projection.metric.near_m);
             }
             EXPECT_GT(nearest_m, 0.999 * near_m);
             EXPECT_LT(nearest_m, std::max(1.0 * below_m, 1.01 * near_m));

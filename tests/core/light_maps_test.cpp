@@ -49,9 +49,9 @@ struct World {
         std::map<std::uint32_t, Have> found;
         for (const View& view : plan(planner).views) {
             Have& one = found[lights[view.light].key];
-            one.maps.push_back(view.map);
-            one.hold.push_back(view.makes);
-            one.redrawn = one.redrawn || view.redraw;
+            one.maps.push_back(view.place.map);
+            one.hold.push_back(view.contents.makes);
+            one.redrawn = one.redrawn || view.contents.redraw;
         }
         return found;
     }
@@ -141,8 +141,8 @@ TEST(LightMaps, NumbersOfTwoPlannersNeverMeet)
     for (std::uint32_t i = 0; i < 100; ++i) {
         world.set.touch(world.set.idAt(1 + i % 60));
         world.lights[0].position_ws.x += 0.01;
-        EXPECT_TRUE(numbers.insert(world.plan(one).views.at(0).makes).second);
-        EXPECT_TRUE(numbers.insert(world.plan(two).views.at(0).makes).second);
+        EXPECT_TRUE(numbers.insert(world.plan(one).views.at(0).contents.makes).second);
+        EXPECT_TRUE(numbers.insert(world.plan(two).views.at(0).contents.makes).second);
     }
 }
 
@@ -153,16 +153,16 @@ TEST(LightMaps, WhatIsLostIsDrawnWhole)
     world.addSpot(1);
     Planner planner(ShadowOptions{.map_size = 64});
     (void)world.plan(planner);
-    const MapId lost = world.plan(planner).views.at(1).map;
+    const MapId lost = world.plan(planner).views.at(1).place.map;
     planner.lost(lost);
     planner.lost({lost.index, lost.generation + 1}); // of another time
     planner.lost({1000, 0});
     planner.lost({});
     const Plan& plan = world.plan(planner);
-    EXPECT_FALSE(plan.views[0].redraw);
-    EXPECT_TRUE(plan.views[1].redraw);
-    EXPECT_EQ(plan.views[1].presumes, 0U);
-    EXPECT_FALSE(world.plan(planner).views[1].redraw);
+    EXPECT_FALSE(plan.views[0].contents.redraw);
+    EXPECT_TRUE(plan.views[1].contents.redraw);
+    EXPECT_EQ(plan.views[1].contents.presumes, 0U);
+    EXPECT_FALSE(world.plan(planner).views[1].contents.redraw);
 }
 
 TEST(LightMaps, OptionsMayDifferFromLightToLight)
@@ -185,11 +185,11 @@ TEST(LightMaps, OptionsMayDifferFromLightToLight)
     EXPECT_EQ(plan.pages[1].width, 32U);
     EXPECT_EQ(plan.pages[1].layers, 1U);
     ASSERT_EQ(plan.views.size(), 3U);
-    EXPECT_EQ(plan.views[0].tile.width, 128U);
-    EXPECT_EQ(plan.views[1].tile.width, 32U);
-    EXPECT_EQ(plan.views[2].tile.width, 64U);
+    EXPECT_EQ(plan.views[0].place.tile.width, 128U);
+    EXPECT_EQ(plan.views[1].place.tile.width, 32U);
+    EXPECT_EQ(plan.views[2].place.tile.width, 64U);
     EXPECT_EQ(plan.lights[1].options, 1U);
-    EXPECT_FALSE(plan.views[1].clamp_near); // a filterable map's
+    EXPECT_FALSE(plan.views[1].projection.clamp_near); // a filterable map's
     EXPECT_EQ(plan.lights[2].outcome.kind, OutcomeKind::refused);
     EXPECT_NE(plan.lights[2].outcome.reason.find("Light::options"), std::string_view::npos);
 }
@@ -224,11 +224,11 @@ TEST(LightMaps, Of64LightsHave384Views)
         (void)world.plan(planner);
         const std::uint64_t before = test::heapAllocations();
         for (const View& view : world.plan(planner).views)
-            EXPECT_FALSE(view.redraw);
+            EXPECT_FALSE(view.contents.redraw);
         EXPECT_EQ(test::heapAllocations(), before);
         world.lights.erase(world.lights.begin() + 20);
         for (const View& view : world.plan(planner).views)
-            EXPECT_FALSE(view.redraw);
+            EXPECT_FALSE(view.contents.redraw);
     }
 }
 

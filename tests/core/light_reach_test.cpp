@@ -82,15 +82,15 @@ int raysThatLeave(Partition partition, Fit fit, Motion motion, Filter filter)
         if (clip.w <= 0.0 || std::abs(clip.x) > clip.w || std::abs(clip.y) > clip.w) {
             continue;
         }
-        const double depth = glm::dot(glm::dvec3(plan.views[0].slice.axis), p - posts.frame.camera.eye_ws);
+        const double depth = glm::dot(glm::dvec3(plan.views[0].serves.slice.axis), p - posts.frame.camera.eye_ws);
         const double turn = random.uniform(0.0, 6.2831853);
         const glm::dvec3 ray = to_light + (right * std::cos(turn) + up * std::sin(turn)) * tangent;
         const glm::dvec3 end = p + ray * (12.0 / ray.y);
         for (const View& view : plan.views) {
-            if (depth < view.slice.begin_m || depth > view.slice.end_m) {
+            if (depth < view.serves.slice.begin_m || depth > view.serves.slice.end_m) {
                 continue;
             }
-            const glm::dvec4 q = view.clip_from_world * glm::dvec4(end, 1.0);
+            const glm::dvec4 q = view.projection.clip_from_world * glm::dvec4(end, 1.0);
             left += std::abs(q.x) > q.w || std::abs(q.y) > q.w ? 1 : 0;
             ++served;
         }

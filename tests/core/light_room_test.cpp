@@ -52,14 +52,14 @@ std::uint64_t texelsOf(const Plan& plan)
 {
     std::uint64_t texels = 0;
     for (const View& view : plan.views) {
-        texels += std::uint64_t{view.tile.width} * view.tile.height;
+        texels += std::uint64_t{view.place.tile.width} * view.place.tile.height;
     }
     return texels;
 }
 
 std::uint32_t sideOf(const Plan& plan, std::size_t light)
 {
-    return plan.views[plan.lights[light].first_view].tile.width;
+    return plan.views[plan.lights[light].first_view].place.tile.width;
 }
 
 TEST(LightRoom, IsWhatEachAskedForWhileThereIsEnough)
@@ -219,7 +219,7 @@ TEST(LightRoom, TakesNothingFromTheHeap)
     const std::uint64_t before = test::heapAllocations();
     const Plan& again = street.plan(planner);
     EXPECT_EQ(test::heapAllocations(), before);
-    EXPECT_TRUE(std::ranges::none_of(again.views, &View::redraw));
+    EXPECT_TRUE(std::ranges::none_of(again.views, [](const View& view) { return view.contents.redraw; }));
 }
 
 } // namespace

@@ -156,16 +156,17 @@ TEST(MapStore, MapsAreAsIfDrawnAnewInEveryFrame)
                 ASSERT_NO_FATAL_FAILURE(mending.check(plan, world.set));
             }
             for (const View& view : plan.views) {
-                restored += view.redraw && view.kept_layer != kNoIndex && !view.redraw_kept ? 1 : 0;
-                reused += view.redraw ? 0 : 1;
-                pairs += view.sun == SunPosition::later ? 1 : 0;
-                shared_pages += view.tile.x > 0 ? 1 : 0;
+                restored +=
+                    view.contents.redraw && view.contents.kept_layer != kNoIndex && !view.contents.redraw_kept ? 1 : 0;
+                reused += view.contents.redraw ? 0 : 1;
+                pairs += view.serves.sun == SunPosition::later ? 1 : 0;
+                shared_pages += view.place.tile.x > 0 ? 1 : 0;
             }
             if (!plan.views.empty() && world.random.below(60) == 0) {
                 const View& view = plan.views[world.random.below(static_cast<std::uint32_t>(plan.views.size()))];
-                const bool kept = view.kept_map && world.random.below(2) == 0;
+                const bool kept = view.contents.kept_map && world.random.below(2) == 0;
                 strict.lose(view, kept);
-                planner.lost(kept ? view.kept_map : view.map);
+                planner.lost(kept ? view.contents.kept_map : view.place.map);
             }
         }
         mended += mending.mended;
@@ -187,12 +188,12 @@ TEST(Dirty, CoversWhereAMoverWasAndIs)
     int inside = 0;
     for (int round = 0; round < 3000; ++round) {
         View view;
-        view.tile = {0, 0, 0, 64, 48};
+        view.place.tile = {0, 0, 0, 64, 48};
         const bool perspective = round % 2 == 1;
         const glm::dvec3 eye = random.inBox(glm::dvec3(-20), glm::dvec3(20));
-        view.clip_from_world = (perspective ? test::perspectiveCamera(eye, glm::dvec3(0.0), 1.0)
-                                            : test::orthographicCamera(eye, glm::dvec3(0.0), 15.0))
-                                   .clip_from_world;
+        view.projection.clip_from_world = (perspective ? test::perspectiveCamera(eye, glm::dvec3(0.0), 1.0)
+                                                       : test::orthographicCamera(eye, glm::dvec3(0.0), 15.0))
+                                              .clip_from_world;
         const glm::dvec3 half = random.inBox(glm::dvec3(0.0), glm::dvec3(3.0));
         const glm::dvec3 centre = round % 8 == 1 ? eye * 0.95 : random.inBox(glm::dvec3(-25), glm::dvec3(25));
         const Aabb box = test::boxAt(centre, half); // each eighth is around the eye, or close before it
@@ -201,7 +202,7 @@ TEST(Dirty, CoversWhereAMoverWasAndIs)
         ASSERT_LE(rect.y + rect.height, 48U);
         for (int sample = 0; sample < 20; ++sample) {
             const glm::dvec3 p = random.inBox(glm::dvec3(box.min), glm::dvec3(box.max));
-            const glm::dvec4 c = view.clip_from_world * glm::dvec4(p, 1.0);
+            const glm::dvec4 c = view.projection.clip_from_world * glm::dvec4(p, 1.0);
             if (c.w <= 0.0 || std::abs(c.x) >= c.w || std::abs(c.y) >= c.w)
                 continue;
             ++inside;

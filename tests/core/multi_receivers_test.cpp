@@ -54,7 +54,8 @@ double pixelAt_m(const Frame& frame, const glm::dvec3& p)
 /// Side of a texel at a point, on a surface that faces the lamp or the sun.
 double texelAt_m(const View& view, const glm::dvec3& p)
 {
-    return view.parallel ? view.texel_m : view.texel_m * glm::distance(p, view.light_place_ws);
+    return view.projection.parallel ? view.projection.texel_m
+                                    : view.projection.texel_m * glm::distance(p, view.projection.light_place_ws);
 }
 
 bool cameraSees(const RandomScene& scene, const glm::dvec3& p)
@@ -120,10 +121,10 @@ void checkHeld(const RandomScene& scene, const Frame& frame, const Plan& plan, s
     bool is_largest = false;
     bool holds = false;
     for (const View& view : std::span(plan.views).subspan(lit.first_view, lit.view_count)) {
-        if (view.sector.holds(p) && placeOnMap(view, p)) {
+        if (view.serves.sector.holds(p) && placeOnMap(view, p)) {
             holds = true;
             finest_m = std::min(finest_m, texelAt_m(view, p));
-            is_largest = is_largest || view.tile.width == largestSide(scene.options);
+            is_largest = is_largest || view.place.tile.width == largestSide(scene.options);
         }
     }
     ASSERT_TRUE(holds);
@@ -218,7 +219,7 @@ TEST(MultiReceivers, TakeAFewFrustumsInADuel)
     ASSERT_TRUE(plan.lights[0].outcome.hasMap());
     // Regions: of the directions from the lamp to the eye, in which a texel is worth most near the eye.
     const auto regions = std::ranges::count_if(
-        plan.views, [&](const View& view) { return view.sector.holds(hall.frame.camera.eye_ws); });
+        plan.views, [&](const View& view) { return view.serves.sector.holds(hall.frame.camera.eye_ws); });
     EXPECT_GE(regions, 2);
     EXPECT_LE(regions, 4);
     EXPECT_LE(plan.views.size(), 9U) << "all around the lamp";
@@ -233,10 +234,10 @@ TEST(MultiReceivers, AreNoWiderThan120Degrees)
     const Plan& plan = planner.plan(hall.frame);
     ASSERT_GT(plan.views.size(), 1U);
     for (const View& view : plan.views) {
-        ASSERT_TRUE(view.layered);
+        ASSERT_TRUE(view.serves.layered);
         // At the sector's sides |x| is w: on the axis' plane that is half its width.
-        const glm::dvec3 axis(view.sector.w);
-        for (const glm::dvec4& across : {view.sector.x, view.sector.y}) {
+        const glm::dvec3 axis(view.serves.sector.w);
+        for (const glm::dvec4& across : {view.serves.sector.x, view.serves.sector.y}) {
             const glm::dvec3 row(across);
             const double along = glm::dot(row, axis);
             const double aside = glm::length(row - axis * along);
@@ -264,8 +265,8 @@ TEST(MultiReceivers, ShareASeamByHalves)
     std::vector<double> counts;
     double left = 1.0;
     for (const View& view : plan.views) {
-        if (view.sector.holds(p)) {
-            counts.push_back(std::min(left, view.opacityAt(p)));
+        if (view.serves.sector.holds(p)) {
+            counts.push_back(std::min(left, view.serves.opacityAt(p)));
             left -= counts.back();
         }
     }
@@ -289,7 +290,7 @@ TEST(MultiReceivers, ChopWhatSurroundsTheLamp)
 /// Where a point is on a view's map, texels.
 glm::dvec2 texelOf(const View& view, const glm::dvec3& p)
 {
-    return (placeOnMap(view, p).value_or(glm::dvec2(0.0)) * 0.5 + 0.5) * static_cast<double>(view.tile.width);
+    return (placeOnMap(view, p).value_or(glm::dvec2(0.0)) * 0.5 + 0.5) * static_cast<double>(view.place.tile.width);
 }
 
 // With motion snap texels stay where they are, and what has to change fades.
@@ -314,14 +315,14 @@ TEST(MultiReceivers, LiveOn)
         hall.look({1.0 + 6.0 * t * t, 1.7, 18.0 - 26.0 * t}, {0, 1, -14});
         bool fades = false;
         for (const View& view : planner.plan(hall.frame).views) {
-            fades = fades || view.faded_in < 1.0;
-            const glm::dvec3 axis(view.sector.w);
+            fades = fades || view.serves.faded_in < 1.0;
+            const glm::dvec3 axis(view.serves.sector.w);
             const glm::dvec2 at = texelOf(view, glm::dvec3(0.0, 3.0, -14.0) + axis);
             const auto same = std::ranges::find_if(
-                known, [&](const Known& one) { return one.axis == axis && one.texel_m == view.texel_m; });
+                known, [&](const Known& one) { return one.axis == axis && one.texel_m == view.projection.texel_m; });
             if (same == known.end()) {
-                known.push_back({axis, view.texel_m, at});
-                at_once += step > 0 && view.faded_in == 1.0 ? 1 : 0;
+                known.push_back({axis, view.projection.texel_m, at});
+                at_once += step > 0 && view.serves.faded_in == 1.0 ? 1 : 0;
                 continue;
             }
             ++compared;
@@ -352,8 +353,8 @@ TEST(MultiReceivers, StayWhereNothingMoves)
             plan = planner.plan(hall.frame);
         }
         for (const View& view : plan.views) {
-            EXPECT_FALSE(view.redraw);
-            EXPECT_EQ(view.faded_in, 1.0);
+            EXPECT_FALSE(view.contents.redraw);
+            EXPECT_EQ(view.serves.faded_in, 1.0);
         }
     }
 }

@@ -18,13 +18,13 @@ using test::Hall;
 /// Where a point is on a view's map, texels.
 glm::dvec2 texelOf(const View& view, const glm::dvec3& p)
 {
-    const glm::dvec4 clip = view.clip_from_world * glm::dvec4(p, 1.0);
-    return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * static_cast<double>(view.tile.width);
+    const glm::dvec4 clip = view.projection.clip_from_world * glm::dvec4(p, 1.0);
+    return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * static_cast<double>(view.place.tile.width);
 }
 
 bool isOnMap(const View& view, const glm::dvec3& p)
 {
-    const glm::dvec4 clip = view.clip_from_world * glm::dvec4(p, 1.0);
+    const glm::dvec4 clip = view.projection.clip_from_world * glm::dvec4(p, 1.0);
     return clip.w > 0.0 && std::max(std::abs(clip.x), std::abs(clip.y)) <= clip.w;
 }
 
@@ -46,7 +46,7 @@ struct FrustumName {
 
 FrustumName nameOf(const View& view)
 {
-    return {view.sector.w, view.slice.begin_m, view.slice.end_m, view.texel_m};
+    return {view.serves.sector.w, view.serves.slice.begin_m, view.serves.slice.end_m, view.projection.texel_m};
 }
 
 TEST(MultiSnap, HoldsTexelsWhereTheyAre)
@@ -99,9 +99,9 @@ TEST(MultiSnap, ForgetsALampThatBecomesAnother)
         hall.look(onTheWay(6 * step), {0, 1, -14});
         const Plan& plan = planner.plan(hall.frame);
         for (const View& view : plan.views) {
-            EXPECT_EQ(view.parallel, hall.lights[0].type == LightType::directional);
-            EXPECT_EQ(view.sector.x != glm::dvec4(0.0), hall.lights[0].type == LightType::point);
-            EXPECT_TRUE(step % 4 != 0 || view.faded_in == 1.0) << "there is nothing to fade over";
+            EXPECT_EQ(view.projection.parallel, hall.lights[0].type == LightType::directional);
+            EXPECT_EQ(view.serves.sector.x != glm::dvec4(0.0), hall.lights[0].type == LightType::point);
+            EXPECT_TRUE(step % 4 != 0 || view.serves.faded_in == 1.0) << "there is nothing to fade over";
         }
     }
 }
@@ -124,12 +124,13 @@ TEST(MultiSnap, FadesWhatItHasToChange)
         bool fades = false;
         std::vector<FrustumName> now;
         for (const View& view : plan.views) {
-            ASSERT_GT(view.faded_in, 0.0);
-            ASSERT_LE(view.faded_in, 1.0);
-            fades = fades || view.faded_in < 1.0;
+            ASSERT_GT(view.serves.faded_in, 0.0);
+            ASSERT_LE(view.serves.faded_in, 1.0);
+            fades = fades || view.serves.faded_in < 1.0;
             now.push_back(nameOf(view));
             came_at_once +=
-                view.faded_in == 1.0 && step > 0 && std::ranges::find(before, now.back()) == before.end() ? 1 : 0;
+                view.serves.faded_in == 1.0 && step > 0 && std::ranges::find(before, now.back()) == before.end() ? 1
+                                                                                                                 : 0;
         }
         fading_frames += fades ? 1 : 0;
         before = now;
@@ -142,9 +143,9 @@ TEST(MultiSnap, FadesWhatItHasToChange)
             // The share of what no map has.
             double missing = 1.0;
             for (const View& view : plan.views) {
-                if (view.slice.holds(p) && view.sector.holds(p) && isOnMap(view, p)) {
-                    const double depth_m = glm::dot(view.slice.axis, glm::dvec4(p, 1.0));
-                    missing *= missing == 1.0 ? 0.0 : 1.0 - view.shareAt(depth_m);
+                if (view.serves.slice.holds(p) && view.serves.sector.holds(p) && isOnMap(view, p)) {
+                    const double depth_m = glm::dot(view.serves.slice.axis, glm::dvec4(p, 1.0));
+                    missing *= missing == 1.0 ? 0.0 : 1.0 - view.serves.shareAt(depth_m);
                 }
             }
             ASSERT_LT(missing, 1e-9) << step << ": " << z;
@@ -173,8 +174,8 @@ TEST(MultiSnap, TakesNothingFromTheHeapAndDrawsNothingAtRest)
     const std::uint64_t before = test::heapAllocations();
     const Plan& plan = planner.plan(hall.frame);
     EXPECT_EQ(test::heapAllocations(), before);
-    EXPECT_TRUE(std::ranges::none_of(plan.views, &View::redraw));
-    EXPECT_TRUE(std::ranges::all_of(plan.views, [](const View& view) { return view.faded_in == 1.0; }));
+    EXPECT_TRUE(std::ranges::none_of(plan.views, [](const View& view) { return view.contents.redraw; }));
+    EXPECT_TRUE(std::ranges::all_of(plan.views, [](const View& view) { return view.serves.faded_in == 1.0; }));
 }
 
 TEST(MultiSnap, BeginsAnewAtACut)
@@ -188,7 +189,7 @@ TEST(MultiSnap, BeginsAnewAtACut)
     hall.look(onTheWay(220), {0, 1, -14});
     hall.frame.cut = true;
     const Plan& plan = planner.plan(hall.frame);
-    EXPECT_TRUE(std::ranges::all_of(plan.views, [](const View& view) { return view.faded_in == 1.0; }));
+    EXPECT_TRUE(std::ranges::all_of(plan.views, [](const View& view) { return view.serves.faded_in == 1.0; }));
 }
 
 } // namespace

@@ -20,7 +20,7 @@ std::uint64_t texelsOf(const Plan& plan)
 {
     std::uint64_t texels = 0;
     for (const View& view : plan.views) {
-        texels += std::uint64_t{view.tile.width} * view.tile.height;
+        texels += std::uint64_t{view.place.tile.width} * view.place.tile.height;
     }
     return texels;
 }
@@ -28,18 +28,18 @@ std::uint64_t texelsOf(const Plan& plan)
 /// The side of a texel at a point that faces the lamp, in pixels that face the eye.
 double texelInPixels(const Hall& hall, const View& view, const glm::dvec3& p)
 {
-    const glm::dvec4 w(view.clip_from_world[0][3], view.clip_from_world[1][3], view.clip_from_world[2][3],
-                       view.clip_from_world[3][3]);
+    const glm::dvec4 w(view.projection.clip_from_world[0][3], view.projection.clip_from_world[1][3],
+                       view.projection.clip_from_world[2][3], view.projection.clip_from_world[3][3]);
     const double depth_m = glm::dot(w, glm::dvec4(p, 1.0));
     const double pixel_m = 2.0 * std::tan(0.4) * glm::distance(p, hall.frame.camera.eye_ws) / hall.frame.size_px.y;
-    return view.texel_m * depth_m / pixel_m;
+    return view.projection.texel_m * depth_m / pixel_m;
 }
 
 /// The views of a light that serve a point, finest first as the plan has them.
 const View* viewOf(const Plan& plan, const glm::dvec3& p)
 {
-    const auto found =
-        std::ranges::find_if(plan.views, [&](const View& view) { return view.slice.holds(p) && view.sector.holds(p); });
+    const auto found = std::ranges::find_if(
+        plan.views, [&](const View& view) { return view.serves.slice.holds(p) && view.serves.sector.holds(p); });
     return found != plan.views.end() ? &*found : nullptr;
 }
 
@@ -53,7 +53,7 @@ TEST(Multi, HasFrustumsOnlyForWhatIsSeen)
     ASSERT_EQ(plan.lights[0].outcome.kind, OutcomeKind::ok) << plan.lights[0].outcome.reason;
     EXPECT_FALSE(plan.views.empty());
     for (const View& view : plan.views) {
-        EXPECT_FALSE(view.sector.holds({0, 8, 0})) << "nothing is above the lamp";
+        EXPECT_FALSE(view.serves.sector.holds({0, 8, 0})) << "nothing is above the lamp";
     }
     hall.look({25, 6, 25}, {50, 6, 50});
     EXPECT_EQ(planner.plan(hall.frame).lights[0].outcome.kind, OutcomeKind::no_receiver);
@@ -166,7 +166,7 @@ TEST(Multi, DividesWhatIsSeenAgainstTheLight)
     const Plan& plan = planner.plan(hall.frame);
     std::set<double> begins;
     for (const View& view : plan.views) {
-        begins.insert(view.slice.begin_m);
+        begins.insert(view.serves.slice.begin_m);
     }
     EXPECT_GE(begins.size(), 2U);
     EXPECT_LE(begins.size(), 4U);
@@ -235,7 +235,8 @@ Spent spend(Hall& hall, std::uint32_t most_of_a_light)
         for (double x = -14.0; x <= 14.0; x += 1.0) {
             const glm::dvec3 p(x, 0.0, z);
             for (const View& view : plan.views) {
-                if (glm::distance(p, view.light_place_ws) < 6.5 && view.slice.holds(p) && view.sector.holds(p)) {
+                if (glm::distance(p, view.projection.light_place_ws) < 6.5 && view.serves.slice.holds(p) &&
+                    view.serves.sector.holds(p)) {
                     spent.texel_px += texelInPixels(hall, view, p);
                     ++points;
                 }
@@ -309,7 +310,7 @@ TEST(Multi, SharesWhatIsLeftSteadily)
             hall.look({16 - 0.02 * step, 10, 16 - 0.01 * step}, {0.01 * step, 0, 0});
             std::vector<std::pair<MapId, std::uint32_t>> now;
             for (const View& view : planner.plan(hall.frame).views) {
-                now.emplace_back(view.map, view.tile.width);
+                now.emplace_back(view.place.map, view.place.tile.width);
                 changes += step > 0 && std::ranges::find(before, now.back()) == before.end() ? 1 : 0;
             }
             views += static_cast<int>(now.size());
@@ -329,13 +330,13 @@ TEST(Multi, DrawsNothingForLampsThatStandStill)
     hall.look({25, 12, 25}, {0, 0, 0});
     Planner planner(hall.options);
     const Plan& first = planner.plan(hall.frame);
-    EXPECT_TRUE(std::ranges::all_of(first.views, &View::redraw));
+    EXPECT_TRUE(std::ranges::all_of(first.views, [](const View& view) { return view.contents.redraw; }));
     EXPECT_GT(first.views.size(), 64U);
     (void)planner.plan(hall.frame); // warm
     const std::uint64_t before = test::heapAllocations();
     const Plan& again = planner.plan(hall.frame);
     EXPECT_EQ(test::heapAllocations(), before);
-    EXPECT_TRUE(std::ranges::none_of(again.views, &View::redraw));
+    EXPECT_TRUE(std::ranges::none_of(again.views, [](const View& view) { return view.contents.redraw; }));
     for (const LightPlan& light : again.lights) {
         EXPECT_EQ(light.outcome.kind, OutcomeKind::ok);
     }
@@ -364,17 +365,19 @@ TEST(Multi, DrawsOnlyWhatAMoverTouches)
             const Plan& plan = planner.plan(hall.frame);
             std::vector<MapId> now;
             for (const View& view : plan.views) {
-                const auto first = plan.casters.begin() + view.first_caster;
+                const auto first = plan.casters.begin() + view.casters.first;
                 const bool holds =
-                    std::find(first, first + view.caster_count, walker.index) != first + view.caster_count;
+                    std::find(first, first + view.casters.count, walker.index) != first + view.casters.count;
                 if (holds) {
-                    now.push_back(view.map);
+                    now.push_back(view.place.map);
                 }
                 if (step > 1) {
-                    const bool held = std::ranges::find(touched, view.map) != touched.end();
-                    EXPECT_TRUE(!view.redraw || holds || held);
-                    all += std::uint64_t{view.tile.width} * view.tile.height;
-                    drawn += view.redraw ? std::uint64_t{view.dirty.width} * view.dirty.height : 0;
+                    const bool held = std::ranges::find(touched, view.place.map) != touched.end();
+                    EXPECT_TRUE(!view.contents.redraw || holds || held);
+                    all += std::uint64_t{view.place.tile.width} * view.place.tile.height;
+                    drawn += view.contents.redraw
+                                 ? std::uint64_t{view.contents.dirty.width} * view.contents.dirty.height
+                                 : 0;
                 }
             }
             touched = now;
@@ -397,7 +400,8 @@ TEST(Multi, ChangesLittleWhereLittleMoves)
         hall.look({1 + 0.01 * step, 1.7, 12 - 0.02 * step}, {0, 1, -14});
         std::vector<std::pair<double, std::uint32_t>> now;
         for (const View& view : planner.plan(hall.frame).views) {
-            now.emplace_back(view.sector.w.x + 2.0 * view.sector.w.y + 4.0 * view.slice.begin_m, view.tile.width);
+            now.emplace_back(view.serves.sector.w.x + 2.0 * view.serves.sector.w.y + 4.0 * view.serves.slice.begin_m,
+                             view.place.tile.width);
         }
         for (const auto& one : now) {
             changes += step > 0 && std::ranges::find(before, one) == before.end() ? 1 : 0;
@@ -424,16 +428,16 @@ TEST(Multi, HoldsWhatIsSeenFromEachPointOfALampThatConverges)
         const LightSample& sample = plan.lights[0].sample;
         ASSERT_TRUE(sample.joined);
         for (const View& view : plan.views) {
-            EXPECT_EQ(view.light_place_ws, sample.position_ws);
-            if (view.sector.bounded()) {
-                EXPECT_NEAR(glm::dot(view.sector.w, glm::dvec4(sample.position_ws, 1.0)), 0.0, 1e-9);
+            EXPECT_EQ(view.projection.light_place_ws, sample.position_ws);
+            if (view.serves.sector.bounded()) {
+                EXPECT_NEAR(glm::dot(view.serves.sector.w, glm::dvec4(sample.position_ws, 1.0)), 0.0, 1e-9);
             }
         }
         for (double z = -5.0; z <= 5.0; z += 0.25) {
             const glm::dvec3 p(0.3 * z, 0.0, z);
             const View* const view = viewOf(plan, p);
             ASSERT_NE(view, nullptr) << z;
-            const glm::dvec4 clip = view->clip_from_world * glm::dvec4(p, 1.0);
+            const glm::dvec4 clip = view->projection.clip_from_world * glm::dvec4(p, 1.0);
             EXPECT_LE(std::max(std::abs(clip.x), std::abs(clip.y)), clip.w) << number << ", " << z;
         }
     }

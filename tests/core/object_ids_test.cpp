@@ -244,12 +244,12 @@ TEST(PlannedIds, AreThoseOfEachLightThatHasAny)
     EXPECT_EQ(objectIdsOf(plan, 0)[0], 0);
     EXPECT_EQ(objectIdsOf(plan, 0)[12], 1); // the highest
     EXPECT_TRUE(objectIdsOf(plan, 1).empty());
-    EXPECT_NE(plan.views[0].ids_key, 0U);
-    EXPECT_EQ(plan.views[1].ids_key, 0U);
+    EXPECT_NE(plan.views[0].contents.ids_key, 0U);
+    EXPECT_EQ(plan.views[1].contents.ids_key, 0U);
     // The floor is drawn, too.
     const View& view = plan.views[0];
-    EXPECT_EQ(plan.casters[view.first_caster], 0U);
-    EXPECT_EQ(view.caster_count, 13U);
+    EXPECT_EQ(plan.casters[view.casters.first], 0U);
+    EXPECT_EQ(view.casters.count, 13U);
     Planner none(optionsOf(Filter::pcf));
     EXPECT_TRUE(world.plan(none).object_bounds.empty());
 }
@@ -262,13 +262,13 @@ TEST(PlannedIds, OthersMakeAMapOutOfDate)
     for (const bool with_ids : {true, false}) {
         Planner planner(optionsOf(with_ids ? Filter::id : Filter::hard));
         world.set.update(far, cubeAt(0.0F, 3.0F, -900.0F));
-        EXPECT_TRUE(world.plan(planner).views.at(0).redraw);
-        EXPECT_FALSE(world.plan(planner).views.at(0).redraw);
-        const std::uint64_t key = planner.plan(world.frame).views.at(0).ids_key;
+        EXPECT_TRUE(world.plan(planner).views.at(0).contents.redraw);
+        EXPECT_FALSE(world.plan(planner).views.at(0).contents.redraw);
+        const std::uint64_t key = planner.plan(world.frame).views.at(0).contents.ids_key;
         world.set.update(far, cubeAt(0.0F, 0.6F, -900.0F)); // now behind all others, whose ids are one less
         const View& view = world.plan(planner).views.at(0);
-        EXPECT_EQ(view.ids_key != key, with_ids);
-        EXPECT_EQ(view.redraw, with_ids);
+        EXPECT_EQ(view.contents.ids_key != key, with_ids);
+        EXPECT_EQ(view.contents.redraw, with_ids);
     }
 }
 

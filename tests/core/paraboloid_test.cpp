@@ -29,20 +29,20 @@ TEST(Paraboloids, ALampOverAFloorHasAMapBelowAlone)
     const Plan& plan = planner.plan(hall.frame);
     ASSERT_EQ(plan.views.size(), 1U) << "nothing is above the lamp";
     const View& view = plan.views[0];
-    EXPECT_TRUE(view.paraboloid);
-    EXPECT_FALSE(view.orthographic);
-    EXPECT_FALSE(view.parallel);
-    EXPECT_TRUE(view.sector.bounded());
-    EXPECT_TRUE(view.sector.holds({5.0, 2.9, -1.0}));
-    EXPECT_FALSE(view.sector.holds({5.0, 3.1, -1.0}));
+    EXPECT_TRUE(view.projection.paraboloid);
+    EXPECT_FALSE(view.projection.orthographic);
+    EXPECT_FALSE(view.projection.parallel);
+    EXPECT_TRUE(view.serves.sector.bounded());
+    EXPECT_TRUE(view.serves.sector.holds({5.0, 2.9, -1.0}));
+    EXPECT_FALSE(view.serves.sector.holds({5.0, 3.1, -1.0}));
     EXPECT_NE(toJson(plan).find("\"paraboloid\": true"), std::string::npos);
     // A caster above it gives it the other one, too.
     hall.set.add(test::boxAt({2.0, 5.0, 0.0}, {0.5, 0.5, 0.5}));
     hall.set.add(test::boxAt({4.0, 7.0, 0.0}, {1.0, 0.5, 1.0}));
     const Plan& both = planner.plan(hall.frame);
     ASSERT_EQ(both.views.size(), 2U);
-    EXPECT_TRUE(both.views[0].sector.holds({0.0, 4.0, 0.0})) << "above comes first";
-    EXPECT_TRUE(both.views[1].sector.holds({0.0, 2.0, 0.0}));
+    EXPECT_TRUE(both.views[0].serves.sector.holds({0.0, 4.0, 0.0})) << "above comes first";
+    EXPECT_TRUE(both.views[1].serves.sector.holds({0.0, 2.0, 0.0}));
 }
 
 TEST(Paraboloids, PlacesAndDepthsAreThoseOfTheFormula)
@@ -64,14 +64,15 @@ TEST(Paraboloids, PlacesAndDepthsAreThoseOfTheFormula)
     const double angle = 0.8;
     EXPECT_NEAR(glm::length(place({std::sin(angle), -std::cos(angle), 0.0})), radius * std::tan(0.4), 1e-12);
     EXPECT_EQ(placeOnMap(view, lamp + glm::dvec3(0.0, 2.0, 0.0)), std::nullopt) << "straight behind";
-    for (const double metres : {view.metric.near_m, 3.0, view.metric.far_m}) {
-        const double expected = (metres - view.metric.near_m) / (view.metric.far_m - view.metric.near_m);
+    for (const double metres : {view.projection.metric.near_m, 3.0, view.projection.metric.far_m}) {
+        const double expected =
+            (metres - view.projection.metric.near_m) / (view.projection.metric.far_m - view.projection.metric.near_m);
         EXPECT_NEAR(depthOnMap(view, lamp + glm::normalize(glm::dvec3(3.0, -1.0, 2.0)) * metres), expected, 1e-12);
     }
     // As wide as is said: a texel in the middle, and at the rim.
     EXPECT_NEAR(view.fit.coarsest_texel.x, 4.0 / (radius * 256.0), 1e-12);
     EXPECT_NEAR(view.fit.finest_texel.x, 2.0 / (radius * 256.0), 1e-12);
-    EXPECT_EQ(view.texel_m, view.fit.coarsest_texel.x);
+    EXPECT_EQ(view.projection.texel_m, view.fit.coarsest_texel.x);
 }
 
 TEST(Paraboloids, AutoIsPcfAndUniform)
@@ -98,12 +99,12 @@ TEST(Paraboloids, MapSizeAutoHalvesBothMapsAlike)
     hall.addLamp({0.0, 3.0, 0.0}, 12.0);
     hall.look({0.0, 12.0, 20.0}, {0.0, 0.0, 0.0});
     Planner planner(hall.options);
-    const std::uint32_t from_near = planner.plan(hall.frame).views.at(0).tile.width;
+    const std::uint32_t from_near = planner.plan(hall.frame).views.at(0).place.tile.width;
     EXPECT_LE(from_near, 4096U) << "two maps share the texels of one, in squares";
     hall.look({0.0, 80.0, 130.0}, {0.0, 0.0, 0.0});
     hall.frame.cut = true;
     planner.reset();
-    EXPECT_LT(planner.plan(hall.frame).views.at(0).tile.width, from_near);
+    EXPECT_LT(planner.plan(hall.frame).views.at(0).place.tile.width, from_near);
 }
 
 TEST(Paraboloids, WhatMovesIsDrawnOverAllOfAMapThatIsKept)
@@ -118,9 +119,9 @@ TEST(Paraboloids, WhatMovesIsDrawnOverAllOfAMapThatIsKept)
     (void)planner.plan(hall.frame);
     hall.set.update(mover, test::boxAt({2.2, 1.0, 0.0}, {0.3, 0.3, 0.3}));
     const View& view = planner.plan(hall.frame).views.at(0);
-    ASSERT_NE(view.kept_layer, kNoIndex);
-    EXPECT_EQ(view.dirty.width, view.tile.width);
-    EXPECT_EQ(view.dirty.height, view.tile.height);
+    ASSERT_NE(view.contents.kept_layer, kNoIndex);
+    EXPECT_EQ(view.contents.dirty.width, view.place.tile.width);
+    EXPECT_EQ(view.contents.dirty.height, view.place.tile.height);
 }
 
 } // namespace

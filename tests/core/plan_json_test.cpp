@@ -43,26 +43,27 @@ Plan tinyPlan()
     plan.casters = {4, 1}; // what moves comes last
     plan.receivers = {0, 4};
     View view;
-    view.clip_from_world[0][0] = 0.1;
-    view.clip_from_world[3][1] = -0.0;
-    view.clip_from_world[3][2] = 1e300;
-    view.metric.metric_ws = {1.0 / 3.0, 0.0, -2.5e-7, std::numeric_limits<double>::quiet_NaN()};
-    view.metric.near_m = 2.0;
-    view.metric.far_m = 5.0;
-    view.texel_m = 0.25;
-    view.texel_xy_m = {0.25, 0.125};
-    view.slice = {{0.0, 0.0, -1.0, 5.0}, 2.0, std::numeric_limits<double>::infinity(), 0.5, {0.0, -1.0, 0.0, 3.0}};
+    view.projection.clip_from_world[0][0] = 0.1;
+    view.projection.clip_from_world[3][1] = -0.0;
+    view.projection.clip_from_world[3][2] = 1e300;
+    view.projection.metric.metric_ws = {1.0 / 3.0, 0.0, -2.5e-7, std::numeric_limits<double>::quiet_NaN()};
+    view.projection.metric.near_m = 2.0;
+    view.projection.metric.far_m = 5.0;
+    view.projection.texel_m = 0.25;
+    view.projection.texel_xy_m = {0.25, 0.125};
+    view.serves.slice = {
+        {0.0, 0.0, -1.0, 5.0}, 2.0, std::numeric_limits<double>::infinity(), 0.5, {0.0, -1.0, 0.0, 3.0}};
     view.fit = {4.0, {0.0625, 0.03125}, {0.25, 0.125}};
-    view.light_place_ws = {1.0, 2.0, 3.0};
-    view.tile = {0, 0, 0, 1024, 1024};
-    view.caster_count = 2;
-    view.part = TexelPart::second;
-    view.sun = SunPosition::later;
-    view.still_count = 1;
-    view.kept_layer = 1;
-    view.dirty = {3, 4, 5, 6};
-    view.map = {3, 2};
-    view.waited = 2;
+    view.projection.light_place_ws = {1.0, 2.0, 3.0};
+    view.place.tile = {0, 0, 0, 1024, 1024};
+    view.casters.count = 2;
+    view.place.part = TexelPart::second;
+    view.serves.sun = SunPosition::later;
+    view.casters.still = 1;
+    view.contents.kept_layer = 1;
+    view.contents.dirty = {3, 4, 5, 6};
+    view.place.map = {3, 2};
+    view.contents.waited = 2;
     plan.views = {view};
     return plan;
 }
@@ -123,7 +124,7 @@ TEST(PlanJson, GoldenText)
 TEST(PlanJson, WhatIsDrawnAllAtOnceHasNothingKept)
 {
     Plan plan = tinyPlan();
-    plan.views[0].kept_layer = kNoIndex;
+    plan.views[0].contents.kept_layer = kNoIndex;
     plan.casters = {1, 4}; // then all are ascending
     const std::string text = toJson(plan);
     EXPECT_NE(text.find("\"kept\": null"), std::string::npos);

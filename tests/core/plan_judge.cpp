@@ -79,26 +79,26 @@ bool hit(const Aabb& box, const glm::dvec3& p, const glm::dvec3& way, double& en
 void checkFinite(const View& view)
 {
     for (int i = 0; i < 16; ++i)
-        ASSERT_TRUE(std::isfinite(view.clip_from_world[i / 4][i % 4]));
+        ASSERT_TRUE(std::isfinite(view.projection.clip_from_world[i / 4][i % 4]));
     for (int i = 0; i < 4; ++i)
-        ASSERT_TRUE(std::isfinite(view.metric.metric_ws[i]));
-    ASSERT_TRUE(std::isfinite(view.metric.near_m) && std::isfinite(view.metric.far_m));
-    ASSERT_LT(view.metric.near_m, view.metric.far_m);
-    ASSERT_GE(view.metric.near_m, 0.0);
-    ASSERT_GT(view.texel_m, 0.0);
-    ASSERT_TRUE(std::isfinite(view.texel_m));
-    ASSERT_EQ(view.texel_m, std::max(view.texel_xy_m.x, view.texel_xy_m.y));
+        ASSERT_TRUE(std::isfinite(view.projection.metric.metric_ws[i]));
+    ASSERT_TRUE(std::isfinite(view.projection.metric.near_m) && std::isfinite(view.projection.metric.far_m));
+    ASSERT_LT(view.projection.metric.near_m, view.projection.metric.far_m);
+    ASSERT_GE(view.projection.metric.near_m, 0.0);
+    ASSERT_GT(view.projection.texel_m, 0.0);
+    ASSERT_TRUE(std::isfinite(view.projection.texel_m));
+    ASSERT_EQ(view.projection.texel_m, std::max(view.projection.texel_xy_m.x, view.projection.texel_xy_m.y));
     ASSERT_TRUE(std::isfinite(view.fit.strength));
     for (const double v : {view.fit.finest_texel.x, view.fit.finest_texel.y, view.fit.coarsest_texel.x,
-                           view.fit.coarsest_texel.y, view.texel_xy_m.x, view.texel_xy_m.y})
+                           view.fit.coarsest_texel.y, view.projection.texel_xy_m.x, view.projection.texel_xy_m.y})
         ASSERT_TRUE(std::isfinite(v) && v > 0.0);
     for (int axis = 0; axis < 3; ++axis)
-        ASSERT_TRUE(std::isfinite(view.light_place_ws[axis]));
+        ASSERT_TRUE(std::isfinite(view.projection.light_place_ws[axis]));
     for (int i = 0; i < 4; ++i)
-        ASSERT_TRUE(std::isfinite(view.slice.axis[i]));
+        ASSERT_TRUE(std::isfinite(view.serves.slice.axis[i]));
     // Its ends may be infinite.
-    ASSERT_LE(view.slice.begin_m, view.slice.end_m);
-    ASSERT_TRUE(std::isfinite(view.slice.blend_m) && view.slice.blend_m >= 0.0);
+    ASSERT_LE(view.serves.slice.begin_m, view.serves.slice.end_m);
+    ASSERT_TRUE(std::isfinite(view.serves.slice.blend_m) && view.serves.slice.blend_m >= 0.0);
 }
 
 /// A point that is seen and lit must be in the map, inside its border, at a depth the map can tell.
@@ -110,10 +110,10 @@ void checkInMap(const RandomScene& scene, const View& view, const glm::dvec3& p)
     const double edge = 1.0 - 2.0 * border / largestSide(scene.options) + 1e-6;
     ASSERT_LE(std::abs(place->x), edge);
     ASSERT_LE(std::abs(place->y), edge);
-    if (view.paraboloid) { // whose depth the rasteriser does not know
+    if (view.projection.paraboloid) { // whose depth the rasteriser does not know
         ASSERT_LE(glm::length(*place), edge);
     } else {
-        const glm::dvec4 c = view.clip_from_world * glm::dvec4(p, 1.0);
+        const glm::dvec4 c = view.projection.clip_from_world * glm::dvec4(p, 1.0);
         ASSERT_LE(c.z, c.w);
     }
     ASSERT_LE(depthOnMap(view, p), 1.0);
@@ -123,19 +123,19 @@ void checkInMap(const RandomScene& scene, const View& view, const glm::dvec3& p)
 /// ray round puts it where it shades nothing.
 void checkOnRay(const View& view, const glm::dvec3& p, const glm::dvec3& q)
 {
-    const glm::dvec4 of_q = view.clip_from_world * glm::dvec4(q, 1.0);
+    const glm::dvec4 of_q = view.projection.clip_from_world * glm::dvec4(q, 1.0);
     const auto place_of_p = placeOnMap(view, p);
     const auto place_of_q = placeOnMap(view, q);
     ASSERT_TRUE(place_of_p && place_of_q);
-    ASSERT_TRUE(view.paraboloid || of_q.z <= of_q.w); // before the far plane
+    ASSERT_TRUE(view.projection.paraboloid || of_q.z <= of_q.w); // before the far plane
     const glm::dvec2 apart = *place_of_q - *place_of_p;
     ASSERT_LE(std::max(std::abs(apart.x), std::abs(apart.y)), 1e-6);
     const double stored = depthOnMap(view, q);
     const double own = depthOnMap(view, p);
     ASSERT_GE(own, 0.0); // not clamped together with what shades it
     ASSERT_LE(stored, own + 1e-9);
-    if (!view.clamp_near) { // then the rasteriser cuts what is before the near plane
-        ASSERT_TRUE(view.paraboloid || of_q.z >= 0.0);
+    if (!view.projection.clamp_near) { // then the rasteriser cuts what is before the near plane
+        ASSERT_TRUE(view.projection.paraboloid || of_q.z >= 0.0);
         ASSERT_GE(stored, 0.0);
     }
 }
@@ -149,13 +149,13 @@ struct Lit {
 
 bool serves(const View& view, const glm::dvec3& p)
 {
-    return view.slice.holds(p) && view.sector.holds(p);
+    return view.serves.slice.holds(p) && view.serves.sector.holds(p);
 }
 
 bool draws(const Lit& lit, const View& view, std::uint32_t object)
 {
-    const auto first = lit.plan.casters.begin() + view.first_caster;
-    return std::find(first, first + view.caster_count, object) != first + view.caster_count;
+    const auto first = lit.plan.casters.begin() + view.casters.first;
+    return std::find(first, first + view.casters.count, object) != first + view.casters.count;
 }
 
 /// Every caster on the way from p to the light is drawn, and none is stored behind p.
@@ -192,7 +192,7 @@ void checkCasters(const Lit& lit, const glm::dvec3& p, Tally& tally)
 std::span<const View> viewsOfLight(const Plan& plan, const LightPlan& light)
 {
     const std::span views = std::span(plan.views).subspan(light.first_view, light.view_count);
-    const bool base = !views.empty() && views[0].gpu_cascade != kNoIndex;
+    const bool base = !views.empty() && views[0].projection.gpu_cascade != kNoIndex;
     return base ? views.first(1) : views;
 }
 
@@ -299,10 +299,14 @@ std::string bytesOf(const Plan& plan)
     for (const LightPlan& light : plan.lights)
         append(out, light.first_view, light.view_count, light.outcome.kind);
     for (const View& v : plan.views) {
-        append(out, v.light, v.clip_from_world, v.metric, v.orthographic, v.clamp_near, v.texel_m, v.tile, v.part);
-        append(out, v.first_caster, v.caster_count, v.still_count, v.redraw, v.kept_layer, v.texel_xy_m);
-        append(out, v.slice.axis, v.slice.begin_m, v.slice.end_m, v.slice.blend_m, v.slice.over, v.slice.across);
-        append(out, v.fit, v.sector, v.gpu_cascade, v.parallel, v.paraboloid, v.light_place_ws);
+        append(out, v.light, v.projection.clip_from_world, v.projection.metric, v.projection.orthographic,
+               v.projection.clamp_near, v.projection.texel_m, v.place.tile, v.place.part);
+        append(out, v.casters.first, v.casters.count, v.casters.still, v.contents.redraw, v.contents.kept_layer,
+               v.projection.texel_xy_m);
+        append(out, v.serves.slice.axis, v.serves.slice.begin_m, v.serves.slice.end_m, v.serves.slice.blend_m,
+               v.serves.slice.over, v.serves.slice.across);
+        append(out, v.fit, v.serves.sector, v.projection.gpu_cascade, v.projection.parallel, v.projection.paraboloid,
+               v.projection.light_place_ws);
     }
     for (const std::vector<std::uint32_t>* objects : {&plan.casters, &plan.receivers})
         for (const std::uint32_t object : *objects)

@@ -106,7 +106,7 @@ class PlanProperties : public testing::TestWithParam<Technique> {};
 std::string bytesWithoutPlaces(Plan plan)
 {
     for (View& view : plan.views)
-        view.tile = {0, 0, 0, view.tile.width, view.tile.height};
+        view.place.tile = {0, 0, 0, view.place.tile.width, view.place.tile.height};
     for (auto& page : plan.pages)
         page = {};
     return test::bytesOf(plan);

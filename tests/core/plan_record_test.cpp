@@ -150,7 +150,7 @@ std::string textOf(const Plan& plan)
 {
     std::string text = toJson(plan) + std::to_string(plan.cut) + ' ' + std::to_string(plan.made_for.lights.size());
     for (const View& view : plan.views) {
-        text += ' ' + std::to_string(view.ids_key) + ' ' + std::to_string(view.light_reach);
+        text += ' ' + std::to_string(view.contents.ids_key) + ' ' + std::to_string(view.projection.light_reach);
     }
     for (const std::vector<Aabb>* boxes : {&plan.moved_ws, &plan.object_bounds}) {
         for (const Aabb& box : *boxes) {

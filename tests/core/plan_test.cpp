@@ -47,7 +47,7 @@ struct World {
 
 glm::dvec3 project(const View& view, const glm::dvec3& p_ws)
 {
-    const glm::dvec4 c = view.clip_from_world * glm::dvec4(p_ws, 1.0);
+    const glm::dvec4 c = view.projection.clip_from_world * glm::dvec4(p_ws, 1.0);
     return glm::dvec3(c) / c.w;
 }
 
@@ -59,11 +59,11 @@ TEST(UniformFit, RectangleOfAKnownFloorUnderAVerticalSun)
     ASSERT_EQ(plan.views.size(), 1U);
     const View& view = plan.views[0];
     // 20 m over 1008 - 8 texels; the padding of the body does not show, because the boxes' own rectangle is tighter.
-    EXPECT_NEAR(view.texel_m, 0.02, 1e-9);
-    EXPECT_NEAR(view.texel_xy_m.x, 0.02, 1e-9);
-    EXPECT_NEAR(view.texel_xy_m.y, 0.02, 1e-9);
-    EXPECT_TRUE(view.orthographic);
-    EXPECT_TRUE(view.clamp_near);
+    EXPECT_NEAR(view.projection.texel_m, 0.02, 1e-9);
+    EXPECT_NEAR(view.projection.texel_xy_m.x, 0.02, 1e-9);
+    EXPECT_NEAR(view.projection.texel_xy_m.y, 0.02, 1e-9);
+    EXPECT_TRUE(view.projection.orthographic);
+    EXPECT_TRUE(view.projection.clamp_near);
     // Straight down: right is +x, up is -z, and y is down in the map.
     const double edge = 1000.0 / 1008.0;
     EXPECT_NEAR(glm::distance(glm::dvec2(project(view, {10, 0, 10})), glm::dvec2(edge, edge)), 0.0, 1e-9);
@@ -80,7 +80,7 @@ TEST(UniformFit, DepthsAreMetresAlongTheLight)
     // The particle at 100 m is clamped: what can be told apart starts three times the receivers' own range (the box's
     // top is at 3 m) above the highest of them.
     const auto metric = [&](const glm::dvec3& p) {
-        return glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0));
+        return glm::dot(view.projection.metric.metric_ws, glm::dvec4(p, 1.0));
     };
     EXPECT_NEAR(metric({0, 12, 0}), 0.0, 1e-3);
     EXPECT_NEAR(metric({0, 0, 0}), 1.0, 1e-3);
@@ -88,7 +88,7 @@ TEST(UniformFit, DepthsAreMetresAlongTheLight)
     EXPECT_GE(metric({0, 12, 0}), 0.0);
     EXPECT_LT(metric({4, 100, 4}), 0.0);
     EXPECT_NEAR(project(view, {2, 1.5, 3}).z, metric({2, 1.5, 3}), 1e-12);
-    EXPECT_NEAR(view.metric.far_m - view.metric.near_m, 12.0, 0.01);
+    EXPECT_NEAR(view.projection.metric.far_m - view.projection.metric.near_m, 12.0, 0.01);
 }
 
 TEST(UniformFit, AFlatFloorLeavesRoomForTheBiasOfWhatIsClamped)
@@ -97,9 +97,9 @@ TEST(UniformFit, AFlatFloorLeavesRoomForTheBiasOfWhatIsClamped)
     world.set.remove(world.set.idAt(1)); // the floor is all that receives, and has no depth range of its own
     Planner planner(ShadowOptions{.technique = kPlainTechnique});
     const View& view = world.plan(planner).views.at(0);
-    const double floor = glm::dot(view.metric.metric_ws, glm::dvec4(0, 0, 0, 1));
-    EXPECT_GE(floor * (view.metric.far_m - view.metric.near_m), 60.0 * view.texel_m);
-    EXPECT_LE(view.metric.far_m - view.metric.near_m, 70.0 * view.texel_m);
+    const double floor = glm::dot(view.projection.metric.metric_ws, glm::dvec4(0, 0, 0, 1));
+    EXPECT_GE(floor * (view.projection.metric.far_m - view.projection.metric.near_m), 60.0 * view.projection.texel_m);
+    EXPECT_LE(view.projection.metric.far_m - view.projection.metric.near_m, 70.0 * view.projection.texel_m);
 }
 
 TEST(UniformFit, Equation6PutsTheLightBeforeEverythingThatCasts)
@@ -114,15 +114,19 @@ TEST(UniformFit, Equation6PutsTheLightBeforeEverythingThatCasts)
     const glm::dvec3 forward = world.lights[0].direction_ws;
     for (const std::uint32_t caster : plan.casters)
         for (int i = 0; i < 8; ++i)
-            EXPECT_GE(glm::dot(forward, glm::dvec3(world.set.bounds(caster).corner(i)) - view.light_place_ws), -1e-9);
+            EXPECT_GE(
+                glm::dot(forward, glm::dvec3(world.set.bounds(caster).corner(i)) - view.projection.light_place_ws),
+                -1e-9);
     // On the line through the centre of what is seen, against the light.
     const glm::dvec3 centre(0.0, 1.5, 0.0);
-    EXPECT_NEAR(glm::length(glm::cross(forward, view.light_place_ws - centre)), 0.0, 1e-3);
+    EXPECT_NEAR(glm::length(glm::cross(forward, view.projection.light_place_ws - centre)), 0.0, 1e-3);
     // metric_ws and near_m, far_m say the same.
     const glm::dvec3 p(3, 1, -2);
-    const double depth = glm::dot(forward, p - view.light_place_ws);
-    EXPECT_NEAR(glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0)),
-                (depth - view.metric.near_m) / (view.metric.far_m - view.metric.near_m), 1e-12);
+    const double depth = glm::dot(forward, p - view.projection.light_place_ws);
+    EXPECT_NEAR(glm::dot(view.projection.metric.metric_ws, glm::dvec4(p, 1.0)),
+                (depth - view.projection.metric.near_m) /
+                    (view.projection.metric.far_m - view.projection.metric.near_m),
+                1e-12);
 }
 
 TEST(UniformFit, FloatingCasterOutsideTheViewCounts)
@@ -163,7 +167,7 @@ TEST(UniformFit, AxesDoNotTurnWithTheCameraNorJumpAtNoon)
         const double turn = 0.3 * step;
         world.frame.camera = test::perspectiveCamera({20 * std::cos(turn), 15, 20 * std::sin(turn)}, {0, 0, 0}, 1.2);
         const View& view = world.plan(planner).views.at(0);
-        const glm::dvec3 right = glm::normalize(glm::dvec3(glm::transpose(view.clip_from_world)[0]));
+        const glm::dvec3 right = glm::normalize(glm::dvec3(glm::transpose(view.projection.clip_from_world)[0]));
         if (step > -20) {
             EXPECT_LT(glm::distance(right, last), 1e-3);
         }
@@ -179,17 +183,17 @@ TEST(UniformFit, SpotOverAFloor)
     Planner planner({.technique = kPlainTechnique, .map_size = 1008, .border_texels = 4.0});
     const Plan& plan = world.plan(planner);
     const View& view = plan.views.at(0);
-    EXPECT_FALSE(view.orthographic);
-    EXPECT_FALSE(view.clamp_near); // what is nearer than the light's near distance does not cast
+    EXPECT_FALSE(view.projection.orthographic);
+    EXPECT_FALSE(view.projection.clamp_near); // what is nearer than the light's near distance does not cast
     const double tangent = std::tan(glm::radians(30.0));
-    EXPECT_NEAR(view.texel_m, 2.0 * tangent / 1000.0, 1e-9);
-    EXPECT_EQ(view.light_place_ws, glm::dvec3(0, 10, 0));
+    EXPECT_NEAR(view.projection.texel_m, 2.0 * tangent / 1000.0, 1e-9);
+    EXPECT_EQ(view.projection.light_place_ws, glm::dvec3(0, 10, 0));
     EXPECT_NEAR(project(view, {10 * tangent, 0, 0}).x, 1000.0 / 1008.0, 1e-9);
     EXPECT_EQ(plan.casters, (std::vector<std::uint32_t>{1})); // the particle is above the light
     // The box's top is 7 m below the light, the floor 10 m.
-    EXPECT_NEAR(view.metric.near_m, 7.0, 0.01);
-    EXPECT_NEAR(view.metric.far_m, 10.0, 0.01);
-    EXPECT_NEAR(glm::dot(view.metric.metric_ws, glm::dvec4(3, 0, 2, 1)), 1.0, 1e-3);
+    EXPECT_NEAR(view.projection.metric.near_m, 7.0, 0.01);
+    EXPECT_NEAR(view.projection.metric.far_m, 10.0, 0.01);
+    EXPECT_NEAR(glm::dot(view.projection.metric.metric_ws, glm::dvec4(3, 0, 2, 1)), 1.0, 1e-3);
 }
 
 TEST(UniformFit, WallThatPassesASpotCountsWhereTheConeMeetsIt)
@@ -203,7 +207,7 @@ TEST(UniformFit, WallThatPassesASpotCountsWhereTheConeMeetsIt)
     const View& view = plan.views.at(0);
     EXPECT_EQ(plan.casters, (std::vector<std::uint32_t>{1}));
     // The cone is 2 m wide at 2 / tan(30 degrees) below the light.
-    EXPECT_NEAR(view.metric.near_m, 2.0 / std::tan(glm::radians(30.0)), 0.01);
+    EXPECT_NEAR(view.projection.metric.near_m, 2.0 / std::tan(glm::radians(30.0)), 0.01);
 }
 
 TEST(UniformFit, SpotMapHoldsOnlyWhatIsSeen)
@@ -215,8 +219,8 @@ TEST(UniformFit, SpotMapHoldsOnlyWhatIsSeen)
     Planner planner({.technique = kPlainTechnique, .map_size = 1008, .border_texels = 4.0});
     const View& view = world.plan(planner).views.at(0);
     // The floor from 4 to 6 m: tangents 0.4 to 0.6 (the body is 3 m high above it, which widens them to 6/7).
-    EXPECT_LT(view.texel_m, 0.0005);
-    EXPECT_GT(view.texel_m, 0.0001);
+    EXPECT_LT(view.projection.texel_m, 0.0005);
+    EXPECT_GT(view.projection.texel_m, 0.0001);
     for (const double x : {4.01, 5.99})
         for (const double z : {4.01, 5.99})
             EXPECT_LT(glm::length(glm::dvec2(project(view, {x, 0, z}))), 1.41);
@@ -229,9 +233,9 @@ TEST(UniformFit, MaxDistanceCutsTheReceivers)
     world.set.add({{0, 8, 7}, {1, 9, 8}}, {true, false, false});
     Planner all(ShadowOptions{.technique = kPlainTechnique});
     Planner near({.technique = kPlainTechnique, .max_distance_m = 25.0});
-    const double whole = world.plan(all).views.at(0).texel_xy_m.y;
+    const double whole = world.plan(all).views.at(0).projection.texel_xy_m.y;
     const Plan& cut = world.plan(near);
-    EXPECT_LT(cut.views.at(0).texel_xy_m.y, 0.5 * whole); // 5 of the 20 metres of floor are left
+    EXPECT_LT(cut.views.at(0).projection.texel_xy_m.y, 0.5 * whole); // 5 of the 20 metres of floor are left
     EXPECT_EQ(cut.receivers, (std::vector<std::uint32_t>{0}));
     Planner nearest({.technique = kPlainTechnique, .max_distance_m = 5.0});
     EXPECT_EQ(world.plan(nearest).lights[0].outcome.kind, OutcomeKind::no_receiver);
@@ -327,7 +331,7 @@ TEST(Plan, FourLightsShareAMaskLayer)
     EXPECT_EQ(plan.views.size(), 5U);
     EXPECT_EQ(plan.views[4].light, 5U);
     EXPECT_EQ(plan.lights[5].first_view, 4U);
-    EXPECT_EQ(plan.views[4].tile.layer, 4U);
+    EXPECT_EQ(plan.views[4].place.tile.layer, 4U);
     world.lights.clear();
     EXPECT_EQ(world.plan(planner).mask_layers, 0U);
     EXPECT_EQ(world.plan(planner).pages[0].layers, 0U);
@@ -343,8 +347,8 @@ TEST(Plan, LightOutOfSightKeepsItsLayer)
     const Plan& plan = world.plan(planner);
     EXPECT_EQ(plan.lights[0].outcome.kind, OutcomeKind::no_receiver);
     ASSERT_EQ(plan.views.size(), 1U);
-    EXPECT_EQ(plan.views[0].tile.layer, 1U);
-    EXPECT_FALSE(plan.views[0].redraw);
+    EXPECT_EQ(plan.views[0].place.tile.layer, 1U);
+    EXPECT_FALSE(plan.views[0].contents.redraw);
 }
 
 TEST(Redraw, OnlyWhenSomethingInTheMapChanged)
@@ -352,7 +356,7 @@ TEST(Redraw, OnlyWhenSomethingInTheMapChanged)
     World world;
     Planner planner({.technique = kPlainTechnique, .map_size = 64});
     const auto redraw = [&] {
-        return world.plan(planner).views.at(0).redraw;
+        return world.plan(planner).views.at(0).contents.redraw;
     };
     EXPECT_TRUE(redraw());
     EXPECT_FALSE(redraw());
@@ -381,11 +385,11 @@ TEST(Redraw, OnlyWhenSomethingInTheMapChanged)
     EXPECT_FALSE(redraw());
     world.lights.push_back(world.lights[0]); // the pages grow: what was drawn is still there
     EXPECT_FALSE(redraw());
-    EXPECT_TRUE(world.plan(planner).views.size() == 2 && !world.plan(planner).views[1].redraw);
+    EXPECT_TRUE(world.plan(planner).views.size() == 2 && !world.plan(planner).views[1].contents.redraw);
     World other;
     other.lights = world.lights;
     other.frame.camera = world.frame.camera;
-    EXPECT_TRUE(other.plan(planner).views.at(0).redraw);
+    EXPECT_TRUE(other.plan(planner).views.at(0).contents.redraw);
 }
 
 } // namespace

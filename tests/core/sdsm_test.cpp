@@ -54,15 +54,15 @@ TEST(Sdsm, ListsTheMapOfASingleCascadeOnceForEach)
         for (std::uint32_t i = 0; i < 6; ++i) {
             const View& view = plan.views[i];
             const View& one = base.views[i / 3];
-            EXPECT_EQ(view.gpu_cascade, i % 3);
-            EXPECT_EQ(view.tile.layer, i);
-            EXPECT_EQ(view.clip_from_world, one.clip_from_world);
-            EXPECT_EQ(view.metric.metric_ws, one.metric.metric_ws);
-            EXPECT_EQ(view.caster_count, one.caster_count);
-            EXPECT_EQ(view.first_caster, plan.views[i / 3 * 3].first_caster);
-            EXPECT_FALSE(view.slice.bounded());
-            EXPECT_NEAR(glm::dot(view.slice.axis, glm::dvec4(meadow.frame.camera.eye_ws, 1.0)), 0.0, 1e-9);
-            EXPECT_EQ(one.gpu_cascade, kNoIndex);
+            EXPECT_EQ(view.projection.gpu_cascade, i % 3);
+            EXPECT_EQ(view.place.tile.layer, i);
+            EXPECT_EQ(view.projection.clip_from_world, one.projection.clip_from_world);
+            EXPECT_EQ(view.projection.metric.metric_ws, one.projection.metric.metric_ws);
+            EXPECT_EQ(view.casters.count, one.casters.count);
+            EXPECT_EQ(view.casters.first, plan.views[i / 3 * 3].casters.first);
+            EXPECT_FALSE(view.serves.slice.bounded());
+            EXPECT_NEAR(glm::dot(view.serves.slice.axis, glm::dvec4(meadow.frame.camera.eye_ws, 1.0)), 0.0, 1e-9);
+            EXPECT_EQ(one.projection.gpu_cascade, kNoIndex);
         }
         EXPECT_EQ(plan.casters.size(), base.casters.size());
     }
@@ -75,9 +75,9 @@ TEST(Sdsm, IsDrawnAgainEveryFrame)
     Planner single(optionsOf(Partition::single, Fit::uniform));
     (void)planner.plan(meadow.frame);
     (void)single.plan(meadow.frame);
-    EXPECT_FALSE(single.plan(meadow.frame).views[0].redraw);
+    EXPECT_FALSE(single.plan(meadow.frame).views[0].contents.redraw);
     for (const View& view : planner.plan(meadow.frame).views)
-        EXPECT_TRUE(view.redraw);
+        EXPECT_TRUE(view.contents.redraw);
 }
 
 TEST(Sdsm, CannotBeHeldStill)
@@ -103,18 +103,19 @@ TEST(Sdsm, AFittedViewShowsItsPartOfTheBaseMap)
     found.blend_m = 1.0;
     const View view = viewAsFitted(base, found);
     for (const glm::dvec3& p : {glm::dvec3(0.0, 0.0, 60.0), {4.0, 1.0, 70.0}, {-20.0, 0.0, -50.0}}) {
-        const glm::dvec4 b = base.clip_from_world * glm::dvec4(p, 1.0);
-        const glm::dvec4 v = view.clip_from_world * glm::dvec4(p, 1.0);
+        const glm::dvec4 b = base.projection.clip_from_world * glm::dvec4(p, 1.0);
+        const glm::dvec4 v = view.projection.clip_from_world * glm::dvec4(p, 1.0);
         EXPECT_NEAR(v.x / v.w, (b.x / b.w + 0.25) * 4.0, 1e-12);
         EXPECT_NEAR(v.y / v.w, (b.y / b.w - 0.5) * 2.5, 1e-12);
         EXPECT_EQ(v.z, b.z);
         EXPECT_EQ(v.w, b.w);
     }
-    EXPECT_DOUBLE_EQ(view.texel_xy_m.x, base.texel_xy_m.x / 4.0);
-    EXPECT_DOUBLE_EQ(view.texel_m, std::max(base.texel_xy_m.x / 4.0, base.texel_xy_m.y / 2.5));
-    EXPECT_EQ(view.slice.begin_m, 3.0);
-    EXPECT_EQ(view.slice.end_m, 9.0);
-    EXPECT_EQ(view.slice.blend_m, 1.0);
+    EXPECT_DOUBLE_EQ(view.projection.texel_xy_m.x, base.projection.texel_xy_m.x / 4.0);
+    EXPECT_DOUBLE_EQ(view.projection.texel_m,
+                     std::max(base.projection.texel_xy_m.x / 4.0, base.projection.texel_xy_m.y / 2.5));
+    EXPECT_EQ(view.serves.slice.begin_m, 3.0);
+    EXPECT_EQ(view.serves.slice.end_m, 9.0);
+    EXPECT_EQ(view.serves.slice.blend_m, 1.0);
 }
 
 TEST(AxisPlace, FillsTheTileButForTheBorder)

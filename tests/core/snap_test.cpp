@@ -47,8 +47,8 @@ ShadowOptions snapped(Partition partition = Partition::single)
 /// Where a point of the world is in the map, texels.
 glm::dvec2 texelAt(const View& view, const glm::dvec3& p)
 {
-    const glm::dvec4 c = view.clip_from_world * glm::dvec4(p, 1.0);
-    return (glm::dvec2(c) / c.w * 0.5 + 0.5) * static_cast<double>(view.tile.width);
+    const glm::dvec4 c = view.projection.clip_from_world * glm::dvec4(p, 1.0);
+    return (glm::dvec2(c) / c.w * 0.5 + 0.5) * static_cast<double>(view.place.tile.width);
 }
 
 double fromWhole(const glm::dvec2& v)
@@ -101,7 +101,7 @@ TEST_P(Snap, MovesByWholeTexels)
         ASSERT_EQ(plan.views.size(), first.size());
         for (std::size_t v = 0; v < first.size(); ++v) {
             const View& now = plan.views[v];
-            if (now.texel_xy_m != first[v].texel_xy_m) // a split in steps went on by one
+            if (now.projection.texel_xy_m != first[v].projection.texel_xy_m) // a split in steps went on by one
                 continue;
             const glm::dvec3 p = meadow.origin + random.inBox({-50, 0, -50}, {50, 5, 50});
             const glm::dvec2 shift = texelAt(now, p) - texelAt(first[v], p);
@@ -124,10 +124,10 @@ TEST_P(Snap, KeepsItsSizeWhileTheCameraTurns)
         const Plan& plan = planner.plan(meadow.frame);
         if (sizes.empty())
             for (const View& view : plan.views)
-                sizes.push_back(view.texel_xy_m);
+                sizes.push_back(view.projection.texel_xy_m);
         ASSERT_EQ(plan.views.size(), sizes.size());
         for (std::size_t v = 0; v < sizes.size(); ++v)
-            EXPECT_EQ(plan.views[v].texel_xy_m, sizes[v]) << "step " << step;
+            EXPECT_EQ(plan.views[v].projection.texel_xy_m, sizes[v]) << "step " << step;
     }
 }
 
@@ -144,7 +144,7 @@ TEST(SnapOfWholeTexels, ChangesTheMapByNothingElse)
     const Plan before = Planner(options).plan(meadow.frame);
     const View& a = before.views[0];
     // The step of the world that is (3, -2) texels: solved in the plane across the light.
-    const glm::dmat4 rows = glm::transpose(a.clip_from_world);
+    const glm::dmat4 rows = glm::transpose(a.projection.clip_from_world);
     const glm::dvec3 x = glm::dvec3(rows[0]);
     const glm::dvec3 y = glm::dvec3(rows[1]);
     const double texel = 2.0 / largestSide(options);
@@ -152,8 +152,8 @@ TEST(SnapOfWholeTexels, ChangesTheMapByNothingElse)
     meadow.look(glm::dvec3(0, 1.7, 0) + step, {0, -0.08, -1});
     const Plan after = Planner(options).plan(meadow.frame);
     const View& b = after.views[0];
-    EXPECT_EQ(b.texel_xy_m, a.texel_xy_m);
-    EXPECT_EQ(b.metric.metric_ws, a.metric.metric_ws);
+    EXPECT_EQ(b.projection.texel_xy_m, a.projection.texel_xy_m);
+    EXPECT_EQ(b.projection.metric.metric_ws, a.projection.metric.metric_ws);
     const glm::dvec2 shift = texelAt(b, {5, 1, -7}) - texelAt(a, {5, 1, -7});
     EXPECT_NEAR(shift.x, -3.0, 1e-9);
     EXPECT_NEAR(shift.y, 2.0, 1e-9);
@@ -166,7 +166,7 @@ TEST(Snap, IsStillWhereTheCameraOnlyTurnsALittle)
     meadow.look({0, 1.7, 0}, {0, -0.08, -1});
     (void)planner.plan(meadow.frame);
     meadow.look({0, 1.7, 0}, {1e-6, -0.08, -1});
-    EXPECT_FALSE(planner.plan(meadow.frame).views.at(0).redraw);
+    EXPECT_FALSE(planner.plan(meadow.frame).views.at(0).contents.redraw);
 }
 
 TEST(Snap, SaysThatItDropsAWarp)
@@ -177,7 +177,7 @@ TEST(Snap, SaysThatItDropsAWarp)
     meadow.look({0, 1.7, 0}, {0, -0.08, -1});
     const Plan plan = Planner(options).plan(meadow.frame);
     EXPECT_EQ(plan.lights.at(0).outcome.kind, OutcomeKind::fallback);
-    EXPECT_TRUE(plan.views.at(0).orthographic);
+    EXPECT_TRUE(plan.views.at(0).projection.orthographic);
 }
 
 TEST(Snap, OfASpotShowsAllThatItLights)
@@ -191,7 +191,7 @@ TEST(Snap, OfASpotShowsAllThatItLights)
     meadow.look({4, 1.7, 2}, {0.3, -0.1, -1});
     const Plan& plan = planner.plan(meadow.frame);
     ASSERT_EQ(plan.views.size(), 1U);
-    EXPECT_FALSE(plan.views[0].redraw);
+    EXPECT_FALSE(plan.views[0].contents.redraw);
 }
 
 } // namespace

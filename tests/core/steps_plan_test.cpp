@@ -57,7 +57,7 @@ ShadowOptions stepped(Motion motion, std::uint32_t map_size = 256)
 bool isRead(const Plan& plan, const View& view)
 {
     const SunSteps& steps = plan.lights[view.light].steps;
-    return !steps.alternate || steps.read == view.sun;
+    return !steps.alternate || steps.read == view.serves.sun;
 }
 
 /// Half a day, one box moving: the still casters are drawn once for each position, and the moving one within the few
@@ -79,21 +79,21 @@ TEST(StepsPlan, DrawStillCastersOnceForEachPosition)
             const Plan& plan = planner.plan(village.frame);
             for (const View& view : plan.views) {
                 const SunSteps& steps = plan.lights[0].steps;
-                const glm::dvec3& p = view.sun == SunPosition::later ? steps.later_ws : steps.earlier_ws;
+                const glm::dvec3& p = view.serves.sun == SunPosition::later ? steps.later_ws : steps.earlier_ws;
                 if (!isRead(plan, view)) {
-                    EXPECT_FALSE(view.redraw);
+                    EXPECT_FALSE(view.contents.redraw);
                     continue;
                 }
                 positions.insert({p.x, p.y, p.z});
-                ASSERT_TRUE(view.redraw); // the box moves in each frame
-                ASSERT_NE(view.kept_layer, kNoIndex);
-                EXPECT_GT(view.still_count, kStill * 9 / 10);
-                EXPECT_EQ(view.caster_count, view.still_count + 1);
-                EXPECT_EQ(plan.casters[view.first_caster + view.still_count], village.mover.index);
-                kept_drawn += view.redraw_kept ? 1 : 0;
-                at_once += view.kept_layer == kNoIndex ? 1 : 0;
-                if (!view.redraw_kept)
-                    widest = std::max(widest, std::uint64_t{view.dirty.width} * view.dirty.height);
+                ASSERT_TRUE(view.contents.redraw); // the box moves in each frame
+                ASSERT_NE(view.contents.kept_layer, kNoIndex);
+                EXPECT_GT(view.casters.still, kStill * 9 / 10);
+                EXPECT_EQ(view.casters.count, view.casters.still + 1);
+                EXPECT_EQ(plan.casters[view.casters.first + view.casters.still], village.mover.index);
+                kept_drawn += view.contents.redraw_kept ? 1 : 0;
+                at_once += view.contents.kept_layer == kNoIndex ? 1 : 0;
+                if (!view.contents.redraw_kept)
+                    widest = std::max(widest, std::uint64_t{view.contents.dirty.width} * view.contents.dirty.height);
             }
         }
         EXPECT_EQ(kept_drawn, static_cast<int>(positions.size()));
@@ -120,8 +120,8 @@ TEST(StepsPlan, DrawNothingWhereNothingMoves)
             village.shine(angle);
             const Plan& plan = planner.plan(village.frame);
             for (const View& view : plan.views) {
-                drawn += view.redraw ? 1 : 0;
-                EXPECT_EQ(view.kept_layer, kNoIndex); // at once
+                drawn += view.contents.redraw ? 1 : 0;
+                EXPECT_EQ(view.contents.kept_layer, kNoIndex); // at once
             }
             steps += plan.lights[0].steps.later_ws != last ? 1 : 0;
             last = plan.lights[0].steps.later_ws;
@@ -162,19 +162,19 @@ TEST(StepsPlan, APositionKeepsItsPlace)
                 std::map<std::array<double, 3>, std::vector<Place>> now;
                 for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
                     const View& view = plan.views[i];
-                    EXPECT_EQ(view.part == TexelPart::whole, !paired_maps);
+                    EXPECT_EQ(view.place.part == TexelPart::whole, !paired_maps);
                     if (view.light == 1) {
-                        EXPECT_NE(view.part, TexelPart::second);
-                        EXPECT_EQ(view.kept_layer, kNoIndex);
-                        EXPECT_EQ(view.sun, SunPosition::only);
+                        EXPECT_NE(view.place.part, TexelPart::second);
+                        EXPECT_EQ(view.contents.kept_layer, kNoIndex);
+                        EXPECT_EQ(view.serves.sun, SunPosition::only);
                         continue;
                     }
                     const bool later = i >= slices;
-                    EXPECT_EQ(view.sun, !steps.paired ? SunPosition::only
-                                        : later       ? SunPosition::later
-                                                      : SunPosition::earlier);
+                    EXPECT_EQ(view.serves.sun, !steps.paired ? SunPosition::only
+                                               : later       ? SunPosition::later
+                                                             : SunPosition::earlier);
                     const glm::dvec3& p = later ? steps.later_ws : steps.earlier_ws;
-                    now[{p.x, p.y, p.z}].push_back({view.tile.layer, view.part, view.kept_layer});
+                    now[{p.x, p.y, p.z}].push_back({view.place.tile.layer, view.place.part, view.contents.kept_layer});
                 }
                 for (const auto& [position, place] : now) {
                     EXPECT_EQ(place.size(), slices);
@@ -205,7 +205,7 @@ TEST(StepsPlan, PositionsOfOneLightAreTwoRangesOfViews)
     EXPECT_EQ(viewsOf(plan, 0, SunPosition::later).size(), 2U);
     // The maps of a position lie in layers that follow each other: they can be drawn in one pass, where none is kept.
     for (const std::uint32_t first : {0U, 2U})
-        EXPECT_EQ(plan.views[first + 1].tile.layer, plan.views[first].tile.layer + 1);
+        EXPECT_EQ(plan.views[first + 1].place.tile.layer, plan.views[first].place.tile.layer + 1);
     EXPECT_EQ(strongerPosition(plan.lights[0].steps), SunPosition::earlier);
     Plan none = plan;
     none.lights[0].outcome.kind = OutcomeKind::no_caster;
@@ -235,7 +235,7 @@ TEST(StepsPlan, AlternateReadsTheOtherOne)
         EXPECT_TRUE(steps.alternate);
         ASSERT_EQ(plan.views.size(), 2U);
         for (const View& view : plan.views)
-            EXPECT_EQ(view.redraw, view.sun == steps.read);
+            EXPECT_EQ(view.contents.redraw, view.serves.sun == steps.read);
         const bool later = steps.read == SunPosition::later;
         const glm::dvec3 other = later ? steps.earlier_ws : steps.later_ws;
         if (last != SunPosition::only && other != last_read) {
@@ -261,12 +261,12 @@ TEST(StepsPlan, AlternateKeepsWhatIsNotRead)
         (void)planner.plan(village.frame);
     for (int frame = 0; frame < 10; ++frame)
         for (const View& view : planner.plan(village.frame).views)
-            EXPECT_FALSE(view.redraw);
+            EXPECT_FALSE(view.contents.redraw);
     village.move(3.0, 4.0);
     int drawn = 0;
     for (int frame = 0; frame < 4; ++frame)
         for (const View& view : planner.plan(village.frame).views)
-            drawn += view.redraw ? 1 : 0;
+            drawn += view.contents.redraw ? 1 : 0;
     EXPECT_EQ(drawn, 2); // each once
 }
 
@@ -282,15 +282,15 @@ TEST(KeptLayers, AreThereWhenAskedFor)
             const bool kept =
                 keep == KeepStill::always || (keep == KeepStill::automatic && motion == Motion::step_blend);
             EXPECT_EQ(plan.pages[0].kept_layers, kept ? (motion == Motion::step_blend ? 2U : 1U) : 0U);
-            EXPECT_EQ(plan.views.at(0).kept_layer, kept ? 0U : kNoIndex);
+            EXPECT_EQ(plan.views.at(0).contents.kept_layer, kept ? 0U : kNoIndex);
             if (motion == Motion::free)
                 continue; // the mover's box changes the map itself
             village.move(2.0, 3.0);
             const View& moved = planner.plan(village.frame).views.at(0);
-            EXPECT_TRUE(moved.redraw);
-            EXPECT_FALSE(moved.redraw_kept);
-            EXPECT_EQ(moved.dirty.empty(), !kept);
-            EXPECT_FALSE(planner.plan(village.frame).views.at(0).redraw);
+            EXPECT_TRUE(moved.contents.redraw);
+            EXPECT_FALSE(moved.contents.redraw_kept);
+            EXPECT_EQ(moved.contents.dirty.empty(), !kept);
+            EXPECT_FALSE(planner.plan(village.frame).views.at(0).contents.redraw);
         }
 }
 
@@ -314,31 +314,31 @@ TEST(KeptLayers, FollowWhatComesAndGoesAndStands)
     const auto view = [&] {
         return planner.plan(village.frame).views.at(0);
     };
-    EXPECT_TRUE(view().redraw_kept);
-    EXPECT_FALSE(view().redraw);
+    EXPECT_TRUE(view().contents.redraw_kept);
+    EXPECT_FALSE(view().contents.redraw);
     village.set.touch(village.set.idAt(5)); // stands still, but changed
     View now = view();
-    EXPECT_TRUE(now.redraw && now.redraw_kept);
-    EXPECT_EQ(now.dirty.width, 256U);
+    EXPECT_TRUE(now.contents.redraw && now.contents.redraw_kept);
+    EXPECT_EQ(now.contents.dirty.width, 256U);
     village.set.touch(village.mover);
     now = view();
-    EXPECT_TRUE(now.redraw && !now.redraw_kept);
-    EXPECT_LT(now.dirty.width, 16U);
+    EXPECT_TRUE(now.contents.redraw && !now.contents.redraw_kept);
+    EXPECT_LT(now.contents.dirty.width, 16U);
     village.set.remove(village.mover); // the last one that moves: restored once more, and then nothing is kept apart
     now = view();
-    EXPECT_TRUE(now.redraw && !now.redraw_kept);
-    EXPECT_NE(now.kept_layer, kNoIndex);
-    EXPECT_EQ(now.caster_count, now.still_count);
-    EXPECT_FALSE(now.dirty.empty());
+    EXPECT_TRUE(now.contents.redraw && !now.contents.redraw_kept);
+    EXPECT_NE(now.contents.kept_layer, kNoIndex);
+    EXPECT_EQ(now.casters.count, now.casters.still);
+    EXPECT_FALSE(now.contents.dirty.empty());
     now = view();
-    EXPECT_FALSE(now.redraw);
-    EXPECT_EQ(now.kept_layer, kNoIndex);
+    EXPECT_FALSE(now.contents.redraw);
+    EXPECT_EQ(now.contents.kept_layer, kNoIndex);
     village.mover = village.set.add(test::boxAt({1, 2, 3}, glm::dvec3(0.5)), {true, true, true}); // what is kept holds
     now = view();
-    EXPECT_TRUE(now.redraw && !now.redraw_kept);
-    EXPECT_LT(now.dirty.width, 16U);
+    EXPECT_TRUE(now.contents.redraw && !now.contents.redraw_kept);
+    EXPECT_LT(now.contents.dirty.width, 16U);
     planner.reset();
-    EXPECT_TRUE(view().redraw_kept);
+    EXPECT_TRUE(view().contents.redraw_kept);
 }
 
 TEST(KeptLayers, AreNoMoreThanTheAtlasMayHave)
@@ -356,7 +356,7 @@ TEST(KeptLayers, AreNoMoreThanTheAtlasMayHave)
     EXPECT_EQ(plan.pages[0].kept_layers, 3U);
     ASSERT_EQ(plan.views.size(), 3U);
     for (const View& view : plan.views)
-        EXPECT_NE(view.kept_layer, kNoIndex);
+        EXPECT_NE(view.contents.kept_layer, kNoIndex);
 }
 
 /// Two planners with the same frames say the same to the last bit.

@@ -98,7 +98,7 @@ TEST(Turns, AreForMapsThatThereAre)
         const Plan plan = lost.next();
         const auto waits = std::ranges::find_if(plan.lights, [](const LightPlan& light) { return light.waited > 0; });
         ASSERT_NE(waits, plan.lights.end());
-        lost.planner.lost(plan.views[waits->first_view].map);
+        lost.planner.lost(plan.views[waits->first_view].place.map);
         const auto index = static_cast<std::size_t>(waits - plan.lights.begin());
         const Plan& after = lost.next();
         EXPECT_EQ(after.lights[index].waited, 0U);
@@ -161,7 +161,7 @@ TEST(Turns, AreOfCascadesTooAndOfACameraThatTurns)
         ASSERT_EQ(plan.pages[0].waiting_lights, 1U);
         const LightPlan& waits = plan.lights[plan.lights[0].waited > 0 ? 0 : 1];
         const LightPlan& waited = before.lights[plan.lights[0].waited > 0 ? 0 : 1];
-        EXPECT_EQ(plan.views[waits.first_view].slice.axis, before.views[waited.first_view].slice.axis);
+        EXPECT_EQ(plan.views[waits.first_view].serves.slice.axis, before.views[waited.first_view].serves.slice.axis);
     }
 }
 

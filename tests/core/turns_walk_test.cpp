@@ -37,19 +37,21 @@ void expectKept(const Plan& before, const Plan& plan, std::size_t light)
     for (std::uint32_t i = 0; i < is.view_count; ++i) {
         const View& a = before.views[was.first_view + i];
         const View& b = plan.views[is.first_view + i];
-        ASSERT_TRUE(!b.redraw && !b.redraw_kept && b.dirty.empty());
-        ASSERT_EQ(b.presumes, a.makes);
-        ASSERT_EQ(b.makes, a.makes);
-        ASSERT_EQ(b.kept_presumes, a.kept_makes);
-        ASSERT_EQ(b.kept_layer, a.kept_layer);
+        ASSERT_TRUE(!b.contents.redraw && !b.contents.redraw_kept && b.contents.dirty.empty());
+        ASSERT_EQ(b.contents.presumes, a.contents.makes);
+        ASSERT_EQ(b.contents.makes, a.contents.makes);
+        ASSERT_EQ(b.contents.kept_presumes, a.contents.kept_makes);
+        ASSERT_EQ(b.contents.kept_layer, a.contents.kept_layer);
         ASSERT_EQ(b.light, light);
-        ASSERT_TRUE(a.map == b.map && sameBytes(a.tile, b.tile) && a.clip_from_world == b.clip_from_world);
-        ASSERT_TRUE(sameBytes(a.metric, b.metric) && sameBytes(a.slice.axis, b.slice.axis) &&
-                    a.slice.begin_m == b.slice.begin_m && a.slice.end_m == b.slice.end_m &&
-                    a.slice.blend_m == b.slice.blend_m && sameBytes(a.sector, b.sector));
+        ASSERT_TRUE(a.place.map == b.place.map && sameBytes(a.place.tile, b.place.tile) &&
+                    a.projection.clip_from_world == b.projection.clip_from_world);
+        ASSERT_TRUE(sameBytes(a.projection.metric, b.projection.metric) &&
+                    sameBytes(a.serves.slice.axis, b.serves.slice.axis) &&
+                    a.serves.slice.begin_m == b.serves.slice.begin_m && a.serves.slice.end_m == b.serves.slice.end_m &&
+                    a.serves.slice.blend_m == b.serves.slice.blend_m && sameBytes(a.serves.sector, b.serves.sector));
         const auto castersOf = [](const Plan& of, const View& view) {
-            return std::vector(of.casters.begin() + view.first_caster,
-                               of.casters.begin() + view.first_caster + view.caster_count);
+            return std::vector(of.casters.begin() + view.casters.first,
+                               of.casters.begin() + view.casters.first + view.casters.count);
         };
         ASSERT_EQ(castersOf(before, a), castersOf(plan, b));
     }
@@ -62,7 +64,7 @@ bool hasMapOf(const Plan& before, const Plan& plan, std::size_t light)
         return std::span(of.views).subspan(of.lights[light].first_view, of.lights[light].view_count);
     };
     return std::ranges::any_of(viewsOf(before), [&](const View& a) {
-        return std::ranges::any_of(viewsOf(plan), [&](const View& b) { return a.map == b.map; });
+        return std::ranges::any_of(viewsOf(plan), [&](const View& b) { return a.place.map == b.place.map; });
     });
 }
 

@@ -51,12 +51,12 @@ ShadowOptions inWorld(std::vector<WorldLayer> layers, LayerAxis axis = LayerAxis
 
 double depthAt(const View& view, const glm::dvec3& p)
 {
-    return glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0));
+    return glm::dot(view.projection.metric.metric_ws, glm::dvec4(p, 1.0));
 }
 /// Eq. 5 of the layer at a point of the world.
 double scaled(const View& view, std::size_t layer, const glm::dvec3& p)
 {
-    const DepthSpan& span = view.layers[layer];
+    const DepthSpan& span = view.serves.layers[layer];
     return (depthAt(view, p) - span.near) / (span.far - span.near);
 }
 
@@ -75,9 +75,9 @@ TEST(WorldLayers, AreEquation5OfHeight)
         EXPECT_NEAR(scaled(view, 0, p), (60.0 - p.y) / 35.0, 1e-9);
         EXPECT_NEAR(scaled(view, 1, p), (6.0 - p.y) / 7.0, 1e-9);
         // It is metres along the ray still.
-        const double range_m = view.metric.far_m - view.metric.near_m;
+        const double range_m = view.projection.metric.far_m - view.projection.metric.near_m;
         EXPECT_NEAR((depthAt(view, p + map.lights[0].direction_ws) - depthAt(view, p)) * range_m, 1.0, 1e-9);
-        EXPECT_EQ(view.layers[2], DepthSpan{});
+        EXPECT_EQ(view.serves.layers[2], DepthSpan{});
     }
 }
 
@@ -118,8 +118,8 @@ TEST(WorldLayers, PrecisionIsALayersOwn)
     Map map;
     Planner planner(inWorld({{-1.0, 6.0}, {25.0, 60.0}}));
     const View view = planner.plan(map.frame).views.at(0);
-    const double height_m = 1.0 / std::abs(view.metric.metric_ws.y);
-    const double step_m = (view.layers[1].far - view.layers[1].near) * height_m / 65535.0;
+    const double height_m = 1.0 / std::abs(view.projection.metric.metric_ws.y);
+    const double step_m = (view.serves.layers[1].far - view.serves.layers[1].near) * height_m / 65535.0;
     EXPECT_NEAR(step_m, 7.0 / 65535.0, 1e-12);
     EXPECT_GT(height_m / 7.0, 3.0) << "of the steps that one layer over all of this view would have";
 }
@@ -131,8 +131,8 @@ TEST(WorldLayers, ALowSunHasEqualParts)
     map.frame.lights = map.lights;
     Planner planner(inWorld({{-1.0, 6.0}, {25.0, 60.0}}));
     const View view = planner.plan(map.frame).views.at(0);
-    EXPECT_EQ(view.layers[0], (DepthSpan{0.0, 0.5}));
-    EXPECT_EQ(view.layers[1], (DepthSpan{0.5, 1.0}));
+    EXPECT_EQ(view.serves.layers[0], (DepthSpan{0.0, 0.5}));
+    EXPECT_EQ(view.serves.layers[1], (DepthSpan{0.5, 1.0}));
 }
 
 TEST(WorldLayers, CanBeTheHostsFrameByFrame)
@@ -143,10 +143,10 @@ TEST(WorldLayers, CanBeTheHostsFrameByFrame)
     map.frame.layers = layers;
     (void)planner.plan(map.frame);
     (void)planner.plan(map.frame);
-    EXPECT_FALSE(planner.plan(map.frame).views.at(0).redraw);
+    EXPECT_FALSE(planner.plan(map.frame).views.at(0).contents.redraw);
     layers[0].high_m = 8.0;
     const View changed = planner.plan(map.frame).views.at(0);
-    EXPECT_TRUE(changed.redraw) << "what was drawn was drawn with other layers";
+    EXPECT_TRUE(changed.contents.redraw) << "what was drawn was drawn with other layers";
     EXPECT_NEAR(scaled(changed, 1, {0, 8, 0}), 0.0, 1e-9);
     layers = {{3.0, 6.0}, {2.0, 60.0}};
     EXPECT_EQ(planner.plan(map.frame).lights[0].outcome.kind, OutcomeKind::refused);

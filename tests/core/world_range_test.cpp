@@ -73,10 +73,11 @@ TEST(WorldRange, PlansTheSameAtEverySizeWithin)
             const Plan& scaled = planner.plan(other.frame);
             ASSERT_EQ(scaled.views.size(), plan.views.size());
             for (std::size_t i = 0; i < plan.views.size(); ++i) {
-                const double unit = plan.views[i].parallel ? scale : 1.0; // a lamp's texels are tangents
-                EXPECT_NEAR(scaled.views[i].texel_m / unit / plan.views[i].texel_m, 1.0, 1e-9);
-                EXPECT_NEAR(scaled.views[i].metric.far_m / scale / plan.views[i].metric.far_m, 1.0, 1e-9);
-                EXPECT_EQ(scaled.views[i].caster_count, plan.views[i].caster_count);
+                const double unit = plan.views[i].projection.parallel ? scale : 1.0; // a lamp's texels are tangents
+                EXPECT_NEAR(scaled.views[i].projection.texel_m / unit / plan.views[i].projection.texel_m, 1.0, 1e-9);
+                EXPECT_NEAR(scaled.views[i].projection.metric.far_m / scale / plan.views[i].projection.metric.far_m,
+                            1.0, 1e-9);
+                EXPECT_EQ(scaled.views[i].casters.count, plan.views[i].casters.count);
             }
         }
     }

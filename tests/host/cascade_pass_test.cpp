@@ -59,7 +59,7 @@ protected:
         drawn.together = times.reuse.together;
         drawn.masks = renderer.read({.colour = false, .masks = true}).masks;
         for (const View& view : renderer.plan().views) {
-            drawn.maps.push_back(renderer.readMap(view.tile.layer));
+            drawn.maps.push_back(renderer.readMap(view.place.tile.layer));
         }
         for (const vulkan::PassRecord& record : times.passes) {
             if (std::string_view(record.name) == "shadow maps") {

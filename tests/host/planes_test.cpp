@@ -47,7 +47,7 @@ bool shadowedExactly(const Light& light, const glm::dvec3& p)
 glm::dvec2 texelOf(const View& view, const glm::dvec3& p)
 {
     const glm::dvec2 place = placeOnMap(view, p).value_or(glm::dvec2(-1.0));
-    return (place * 0.5 + 0.5) * glm::dvec2(view.tile.width, view.tile.height);
+    return (place * 0.5 + 0.5) * glm::dvec2(view.place.tile.width, view.place.tile.height);
 }
 
 // The exact answers met within one texel of `p`, along the ground: bit 0 lit, bit 1 shadowed.
@@ -85,8 +85,8 @@ std::vector<const View*> viewsAt(const Plan& plan, const LightPlan& light, const
     for (std::uint32_t i = light.first_view; i < light.first_view + light.view_count; ++i) {
         const View& view = plan.views[i];
         const glm::dvec2 texel = texelOf(view, p);
-        if (view.slice.holds(p) && view.sector.holds(p) && std::min(texel.x, texel.y) >= 2.0 &&
-            texel.x <= view.tile.width - 2.0 && texel.y <= view.tile.height - 2.0) {
+        if (view.serves.slice.holds(p) && view.serves.sector.holds(p) && std::min(texel.x, texel.y) >= 2.0 &&
+            texel.x <= view.place.tile.width - 2.0 && texel.y <= view.place.tile.height - 2.0) {
             found.push_back(&view);
         }
     }

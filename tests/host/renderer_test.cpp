@@ -166,10 +166,10 @@ TEST(Renderer, RedrawsNoMapWhenNothingMoved)
     Stage stage(smallScene());
     const Picture first = stage.drawAndRead();
     ASSERT_FALSE(stage.renderer->plan().views.empty());
-    EXPECT_TRUE(stage.renderer->plan().views.front().redraw);
+    EXPECT_TRUE(stage.renderer->plan().views.front().contents.redraw);
     const Picture second = stage.drawAndRead();
     for (const View& view : stage.renderer->plan().views) {
-        EXPECT_FALSE(view.redraw);
+        EXPECT_FALSE(view.contents.redraw);
     }
     EXPECT_EQ(first.colour.values, second.colour.values);
 }
@@ -182,7 +182,7 @@ TEST(Renderer, RedrawsEveryMapWhenAskedTo)
     for (int i = 0; i < 2; ++i) {
         stage.renderer->draw(stage.state, stage.eye, stage.lights);
         for (const View& view : stage.renderer->plan().views) {
-            EXPECT_TRUE(view.redraw);
+            EXPECT_TRUE(view.contents.redraw);
         }
     }
 }

@@ -52,7 +52,7 @@ struct Rect {
 
 glm::dvec2 placeOn(const View& view, const glm::dvec3& p)
 {
-    const glm::dvec4 clip = view.clip_from_world * glm::dvec4(p, 1.0);
+    const glm::dvec4 clip = view.projection.clip_from_world * glm::dvec4(p, 1.0);
     return glm::dvec2(clip) / clip.w;
 }
 
@@ -87,7 +87,7 @@ protected:
     std::vector<Pixel> pixelsOf(const Picture& picture, const View& base) const
     {
         const glm::dmat4 world_from_clip = glm::inverse(frame_.camera.clip_from_world);
-        const double inside = 1.0 - 2.0 * tileMarginTexels(double{reach_}) / base.tile.width;
+        const double inside = 1.0 - 2.0 * tileMarginTexels(double{reach_}) / base.place.tile.width;
         std::vector<Pixel> pixels;
         for (std::uint32_t y = 0; y < options_.height; ++y) {
             for (std::uint32_t x = 0; x < options_.width; ++x) {
@@ -99,12 +99,12 @@ protected:
                                                                   (y + 0.5) / options_.height * 2.0 - 1.0,
                                                                   double{*picture.depth.pixel(x, y)}, 1.0);
                 const glm::dvec3 p = glm::dvec3(h) / h.w;
-                const glm::dvec4 clip = base.clip_from_world * glm::dvec4(p, 1.0);
+                const glm::dvec4 clip = base.projection.clip_from_world * glm::dvec4(p, 1.0);
                 const double distance = glm::length(p - frame_.camera.eye_ws);
                 const double reach = options_.shadow.max_distance_m > 0.0 ? options_.shadow.max_distance_m : 1e30;
                 const bool served = clip.w > 0.0 && std::max(std::abs(clip.x), std::abs(clip.y)) <= inside * clip.w;
                 if (served && distance <= reach) {
-                    pixels.push_back({p, glm::dot(base.slice.axis, glm::dvec4(p, 1.0))});
+                    pixels.push_back({p, glm::dot(base.serves.slice.axis, glm::dvec4(p, 1.0))});
                 }
             }
         }
@@ -141,7 +141,7 @@ void expectSlices(std::span<const View> views, const std::vector<Pixel>& pixels,
 {
     for (std::uint32_t i = 0; i < views.size(); ++i) {
         SCOPED_TRACE("cascade " + std::to_string(i));
-        const ViewSlice& slice = views[i].slice;
+        const ViewSlice& slice = views[i].serves.slice;
         const double begin_m = splitOf(pixels, cascades, i);
         const double end_m = splitOf(pixels, cascades, i + 1);
         const double blend_m =
@@ -185,15 +185,15 @@ struct Place {
 
 Place placeOf(const View& view, const View& base)
 {
-    Place place{base.texel_xy_m / view.texel_xy_m, glm::dvec2(0.0)};
-    const glm::dvec4 w = glm::row(base.clip_from_world, 3);
+    Place place{base.projection.texel_xy_m / view.projection.texel_xy_m, glm::dvec2(0.0)};
+    const glm::dvec4 w = glm::row(base.projection.clip_from_world, 3);
     int column = 0;
     for (int i = 1; i < 4; ++i) {
         column = std::abs(w[i]) > std::abs(w[column]) ? i : column;
     }
     for (int axis = 0; axis < 2; ++axis) {
-        const double own = view.clip_from_world[column][axis] / place.scale[axis];
-        place.centre[axis] = (base.clip_from_world[column][axis] - own) / w[column];
+        const double own = view.projection.clip_from_world[column][axis] / place.scale[axis];
+        place.centre[axis] = (base.projection.clip_from_world[column][axis] - own) / w[column];
     }
     return place;
 }
@@ -204,7 +204,7 @@ void expectPlace(const View& view, const View& base, double border_texels, const
 {
     constexpr double kPlaceRounding = 64 * 6e-8;
     const Place place = placeOf(view, base);
-    const double widen = base.tile.width / (base.tile.width - 2.0 * border_texels);
+    const double widen = base.place.tile.width / (base.place.tile.width - 2.0 * border_texels);
     for (int axis = 0; axis < 2; ++axis) {
         if (most.empty()) {
             EXPECT_EQ(place.scale[axis], 1.0);
@@ -246,14 +246,15 @@ TEST_P(Sdsm, FitsEachCascadeToThePixelsThatAreThere)
         expectSlices(views, pixels, options_.shadow.cascades);
         bool finer = false;
         for (const View& view : views) {
-            SCOPED_TRACE("cascade " + std::to_string(view.gpu_cascade));
-            EXPECT_EQ(view.metric.metric_ws, base.metric.metric_ws);
-            EXPECT_EQ(view.caster_count, base.caster_count);
+            SCOPED_TRACE("cascade " + std::to_string(view.projection.gpu_cascade));
+            EXPECT_EQ(view.projection.metric.metric_ws, base.projection.metric.metric_ws);
+            EXPECT_EQ(view.casters.count, base.casters.count);
             const double pad = double{shared::kDepthRounding};
-            expectPlace(view, base, *options_.shadow.border_texels, rectOf(base, pixels, view.slice, -pad),
-                        rectOf(base, pixels, view.slice, 3.0 * pad));
-            finer = finer || view.texel_xy_m.x * view.texel_xy_m.y < 0.7 * base.texel_xy_m.x * base.texel_xy_m.y;
-            EXPECT_LE(view.texel_m, base.texel_m * (1.0 + 1e-6));
+            expectPlace(view, base, *options_.shadow.border_texels, rectOf(base, pixels, view.serves.slice, -pad),
+                        rectOf(base, pixels, view.serves.slice, 3.0 * pad));
+            finer = finer || view.projection.texel_xy_m.x * view.projection.texel_xy_m.y <
+                                 0.7 * base.projection.texel_xy_m.x * base.projection.texel_xy_m.y;
+            EXPECT_LE(view.projection.texel_m, base.projection.texel_m * (1.0 + 1e-6));
         }
         EXPECT_TRUE(finer || light.view_count == 1) << "no cascade's texel is smaller than that of one map";
     }
@@ -279,12 +280,12 @@ TEST_P(Sdsm, HoldsEveryPixelWithItsKernelInEachCascadeThatServesIt)
             bool served = false;
             for (std::uint32_t i = light.first_view; i < light.first_view + light.view_count; ++i) {
                 const View& view = plan.views[i];
-                if (!view.slice.holds(pixel.point_ws)) {
+                if (!view.serves.slice.holds(pixel.point_ws)) {
                     continue;
                 }
-                const glm::dvec2 texel = (placeOn(view, pixel.point_ws) * 0.5 + 0.5) * double(view.tile.width);
-                const bool inside =
-                    std::min(texel.x, texel.y) >= margin && std::max(texel.x, texel.y) <= view.tile.width - margin;
+                const glm::dvec2 texel = (placeOn(view, pixel.point_ws) * 0.5 + 0.5) * double(view.place.tile.width);
+                const bool inside = std::min(texel.x, texel.y) >= margin &&
+                                    std::max(texel.x, texel.y) <= view.place.tile.width - margin;
                 outside += inside ? 0 : 1;
                 served = served || inside;
             }
@@ -300,7 +301,8 @@ void expectRoom(const View& view, const View& base, double border_texels, const 
 {
     constexpr double kOff = 1e-4; // pixels at the ends of slices, and what places are rounded by
     const Place place = placeOf(view, base);
-    const glm::dvec2 half = 1.0 / (place.scale * (base.tile.width / (base.tile.width - 2.0 * border_texels)));
+    const glm::dvec2 half =
+        1.0 / (place.scale * (base.place.tile.width / (base.place.tile.width - 2.0 * border_texels)));
     for (int axis = 0; axis < 2; ++axis) {
         if (place.scale[axis] > 1.0) { // else it is the base map
             EXPECT_LE(place.centre[axis] - half[axis], seen.low[axis] + kOff);
@@ -323,13 +325,13 @@ TEST_P(Sdsm, GivesRaysRoomButNoMoreThanAQuarterOfWhatIsSeen)
     const Plan base_plan = Planner(options_.shadow).plan(frame_);
     const LightPlan& light = renderer.plan().lights[0];
     const View& base = base_plan.views[light.first_view];
-    ASSERT_GT(base.light_reach, 0.0);
+    ASSERT_GT(base.projection.light_reach, 0.0);
     const std::vector<Pixel> pixels = pixelsOf(picture, base);
     const double pad = double{shared::kDepthRounding};
     for (std::uint32_t i = light.first_view; i < light.first_view + light.view_count; ++i) {
         SCOPED_TRACE("cascade " + std::to_string(i));
         const View& view = renderer.plan().views[i];
-        const Rect seen = rectOf(base, pixels, view.slice, -pad);
+        const Rect seen = rectOf(base, pixels, view.serves.slice, -pad);
         if (!seen.empty()) {
             const glm::dvec2 size_texels = (seen.high - seen.low) * base.fit.finest_texel;
             const glm::dvec2 most = 0.25 * std::max(size_texels.x, size_texels.y) / base.fit.finest_texel;

@@ -55,7 +55,8 @@ double bleedingOf(const Score& score)
 float splitAt(const View& view, float depth)
 {
     const glm::dvec3 along = glm::normalize(glm::dvec3(World::sun_direction));
-    return static_cast<float>(glm::dot(view.metric.metric_ws, glm::dvec4(along * static_cast<double>(depth), 1.0)));
+    return static_cast<float>(
+        glm::dot(view.projection.metric.metric_ws, glm::dvec4(along * static_cast<double>(depth), 1.0)));
 }
 
 constexpr float kAboveAwning = -4.5F; // below the sail

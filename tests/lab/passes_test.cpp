@@ -78,8 +78,8 @@ Plan planOf(std::uint32_t side)
     plan.lights.resize(1);
     plan.mask_layers = 1;
     plan.views.resize(1);
-    plan.views[0].tile.width = side;
-    plan.views[0].tile.height = side;
+    plan.views[0].place.tile.width = side;
+    plan.views[0].place.tile.height = side;
     return plan;
 }
 
@@ -95,7 +95,7 @@ TEST(LeastByPass, OfMapsOfDepthsAreTheirTexels)
     ASSERT_TRUE(least.mask);
     EXPECT_EQ(least.mask->texels, 1000U);
     EXPECT_EQ(least.mask->bytes, 5000U); // depth in, a byte out
-    plan.views[0].redraw = false;
+    plan.views[0].contents.redraw = false;
     options.redraws_all = false;
     EXPECT_EQ(leastByPass(plan, 1000, options).maps->bytes, 0U);
     // Of two lights four channels are written, and four samples to a pixel are four pixels.

@@ -93,7 +93,7 @@ TEST(PlanPicture, HasWhatThePlanHas)
     EXPECT_EQ(pathsIn(svg, "edge"), 2U);              // across the light and in the map
     EXPECT_EQ(pathsIn(svg, "eighths"), 2U * 2U * 7U); // both ways
     EXPECT_EQ(shapesIn(svg, "body"), 2U);
-    EXPECT_EQ(shapesIn(svg, "casters"), 2U * plan.views[0].caster_count);
+    EXPECT_EQ(shapesIn(svg, "casters"), 2U * plan.views[0].casters.count);
     EXPECT_EQ(shapesIn(svg, "seen"), 2U); // the ground
     EXPECT_EQ(count(svg, "class=\"tile\""), 1U);
     EXPECT_NE(svg.find("title"), std::string::npos);
@@ -107,10 +107,10 @@ TEST(PlanPicture, TellsCulledCastersFromDrawnOnes)
     const std::string svg = row.svg();
     expectSound(svg);
     const View& view = row.planner->plan(row.frame).views.at(0);
-    ASSERT_LT(view.caster_count, 10U);
-    EXPECT_EQ(shapesIn(svg, "casters"), 2U * view.caster_count);
+    ASSERT_LT(view.casters.count, 10U);
+    EXPECT_EQ(shapesIn(svg, "casters"), 2U * view.casters.count);
     EXPECT_GT(shapesIn(svg, "culled"), 0U);
-    EXPECT_LE(shapesIn(svg, "culled"), 21U - view.caster_count);
+    EXPECT_LE(shapesIn(svg, "culled"), 21U - view.casters.count);
 }
 
 TEST(PlanPicture, HasAFrameForEachCascade)
@@ -252,7 +252,7 @@ TEST(PlanShapes, AMapsPointsAreThoseOfItsMatrix)
         EXPECT_GT(glm::dot(plane.y_ws, forwardOf(row.frame.camera)), 0.0);
         const glm::dmat3 map = mapFromPlane(plane, view);
         for (const glm::dvec3& p : {glm::dvec3(0, 0, 80), glm::dvec3(-3, 1, 50), glm::dvec3(5, 0, 0)}) {
-            const glm::dvec4 clip = view.clip_from_world * glm::dvec4(p, 1.0);
+            const glm::dvec4 clip = view.projection.clip_from_world * glm::dvec4(p, 1.0);
             const glm::dvec2 q = planePoint(map, clip.x / clip.w, clip.y / clip.w);
             EXPECT_LT(glm::length(q - plane.project(p).value()), 1e-6 * 100.0);
         }

@@ -107,8 +107,8 @@ public:
                             .near_m = 0.05 * height_m};
         renderer_->draw(state, eye, host::lightsOf(scene_, state));
         const View& view = renderer_->plan().views.at(0);
-        EXPECT_GT(view.metric.far_m - view.metric.near_m, 0.99 * double{range_m});
-        EXPECT_LT(view.metric.far_m - view.metric.near_m, 1.2 * double{range_m});
+        EXPECT_GT(view.projection.metric.far_m - view.projection.metric.near_m, 0.99 * double{range_m});
+        EXPECT_LT(view.projection.metric.far_m - view.projection.metric.near_m, 1.2 * double{range_m});
         return isStep(renderer_->read({.colour = false, .masks = true}).masks.at(0));
     }
 

@@ -56,14 +56,14 @@ Plan planOf(double tilt_rad, double turn_rad, glm::dvec2 texel_m, std::uint32_t 
     const glm::dvec3 y = across * std::cos(turn_rad) - along * std::sin(turn_rad);
     const glm::dvec3 rows[] = {x * 2.0 / (texel_m.x * width), y * 2.0 / (texel_m.y * height), forward * 1e-3};
     View view;
-    view.clip_from_world = glm::dmat4(1.0);
+    view.projection.clip_from_world = glm::dmat4(1.0);
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 3; ++column) {
-            view.clip_from_world[column][row] = rows[row][column];
+            view.projection.clip_from_world[column][row] = rows[row][column];
         }
     }
-    view.clip_from_world[3][2] = 0.5;
-    view.tile = {.width = width, .height = height};
+    view.projection.clip_from_world[3][2] = 0.5;
+    view.place.tile = {.width = width, .height = height};
     Plan plan;
     plan.views.push_back(view);
     plan.lights.push_back({.first_view = 0, .view_count = 1});
@@ -129,12 +129,12 @@ TEST(TexelDensity, OfAParaboloidIsThatOfItsPlaces)
     const double pixel_m = 0.2;
     const Above above(pixel_m);
     View view;
-    view.paraboloid = true;
-    view.parallel = false;
-    view.sector.w = {0.0, -1.0, 0.0, kHeight_m};
-    view.clip_from_world =
+    view.projection.paraboloid = true;
+    view.projection.parallel = false;
+    view.serves.sector.w = {0.0, -1.0, 0.0, kHeight_m};
+    view.projection.clip_from_world =
         glm::transpose(glm::dmat4({1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, kHeight_m}, {0, 0, 0, 1.0 / 0.9}));
-    view.tile = {.width = kSide, .height = kSide};
+    view.place.tile = {.width = kSide, .height = kSide};
     Plan plan;
     plan.views.push_back(view);
     plan.lights.push_back({.first_view = 0, .view_count = 1});
@@ -187,7 +187,7 @@ TEST(FitEfficiency, IsTheShareOfTexelsWithinReachOfSomePixel)
     const Plan plan = planOf(0.0, 0.0, {1.0, 1.0}, 256, 256);
     const double texels = 256.0 * 256.0;
     Plan shifted = plan; // away from texel borders, where rounding would decide
-    shifted.views[0].clip_from_world[3] += glm::dvec4(0.3 / 128.0, 0.3 / 128.0, 0.0, 0.0);
+    shifted.views[0].projection.clip_from_world[3] += glm::dvec4(0.3 / 128.0, 0.3 / 128.0, 0.0, 0.0);
     EXPECT_DOUBLE_EQ(efficiencyOf(sparse, shifted, 0.5), 1024.0 / texels);        // the texel itself
     EXPECT_DOUBLE_EQ(efficiencyOf(sparse, shifted, 1.0), 1024.0 * 4.0 / texels);  // 2 x 2
     EXPECT_DOUBLE_EQ(efficiencyOf(sparse, shifted, 2.0), 1024.0 * 16.0 / texels); // 4 x 4: all of 128 x 128
@@ -241,10 +241,11 @@ TEST(FitEfficiency, OfTwoPositionsTakesThoseThatAreRead)
     Plan plan = planOf(0.0, 0.0, {1.0, 1.0}, 64, 64);
     plan.views.push_back(planOf(0.0, 0.0, {0.5, 0.5}, 128, 128).views[0]);
     for (View& view : plan.views) { // off the texels' edges
-        view.clip_from_world[3] += glm::dvec4(0.3 / view.tile.width, 0.3 / view.tile.width, 0.0, 0.0);
+        view.projection.clip_from_world[3] +=
+            glm::dvec4(0.3 / view.place.tile.width, 0.3 / view.place.tile.width, 0.0, 0.0);
     }
-    plan.views[0].sun = SunPosition::earlier;
-    plan.views[1].sun = SunPosition::later;
+    plan.views[0].serves.sun = SunPosition::earlier;
+    plan.views[1].serves.sun = SunPosition::later;
     plan.lights[0].view_count = 2;
     SunSteps& steps = plan.lights[0].steps;
     steps.stepping = true;
@@ -297,7 +298,7 @@ TEST(LeastBytes, AreWhatIsWrittenAndReadOnce)
     const Above above(4.0); // of 4 m a pixel, on texels of 1 m: no texel is read twice by 2 x 2
     const Sight seen{above.camera, above.picture.depth, above.picture.normals};
     Plan plan = planOf(0.0, 0.0, {1.0, 1.0}, 256, 256);
-    plan.views[0].clip_from_world[3] += glm::dvec4(0.3 / 128.0, 0.3 / 128.0, 0.0, 0.0);
+    plan.views[0].projection.clip_from_world[3] += glm::dvec4(0.3 / 128.0, 0.3 / 128.0, 0.0, 0.0);
     plan.mask_layers = 1;
     std::vector<Light> lights(1); // straight down
     const std::uint64_t pixels = kSide_px * kSide_px;
@@ -314,19 +315,19 @@ TEST(LeastBytes, AreWhatIsWrittenAndReadOnce)
     EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * (drawn + 4 * pixels) + 4 * pixels * 9);
     options.samples = 1;
     // A map that still holds is read and not written.
-    plan.views[0].redraw = false;
+    plan.views[0].contents.redraw = false;
     EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * (drawn + 4 * pixels) + pixels * 9);
     options.redraws_all = false;
     EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * 4 * pixels + pixels * 9);
     // Of one that is restored and drawn over in part, only that part, and what is kept if that is drawn too.
-    plan.views[0].redraw = true;
-    plan.views[0].kept_layer = 0;
-    plan.views[0].dirty = {0, 0, 4, 5};
+    plan.views[0].contents.redraw = true;
+    plan.views[0].contents.kept_layer = 0;
+    plan.views[0].contents.dirty = {0, 0, 4, 5};
     EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * (20 + 4 * pixels) + pixels * 9);
-    plan.views[0].redraw_kept = true;
+    plan.views[0].contents.redraw_kept = true;
     EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * (20 + drawn + 4 * pixels) + pixels * 9);
-    plan.views[0].kept_layer = kNoIndex;
-    plan.views[0].redraw = false;
+    plan.views[0].contents.kept_layer = kNoIndex;
+    plan.views[0].contents.redraw = false;
     // Who turns away from the light reads nothing, and neither does a light without a map; the mask is written.
     lights[0].direction_ws = {0.0, 1.0, 0.0};
     EXPECT_EQ(leastBytes(seen, lights, plan, options), pixels * 9);
@@ -346,7 +347,7 @@ TEST(LeastBytes, OfAFilterableMapAreThoseOfItsLayersAndLevels)
     const Above above(4.0);
     const Sight seen{above.camera, above.picture.depth, above.picture.normals};
     Plan plan = planOf(0.0, 0.0, {1.0, 1.0}, 256, 256);
-    plan.views[0].clip_from_world[3] += glm::dvec4(0.3 / 128.0, 0.3 / 128.0, 0.0, 0.0);
+    plan.views[0].projection.clip_from_world[3] += glm::dvec4(0.3 / 128.0, 0.3 / 128.0, 0.0, 0.0);
     plan.mask_layers = 1;
     const std::vector<Light> lights(1);
     const std::uint64_t pixels = kSide_px * kSide_px;
@@ -356,7 +357,7 @@ TEST(LeastBytes, OfAFilterableMapAreThoseOfItsLayersAndLevels)
     const std::uint64_t levels = 256 * 256 + 128 * 128 + 64 * 64;
     EXPECT_EQ(leastBytes(seen, lights, plan, options), 8 * (2 * levels + pixels) + pixels * 13);
     // A tile whose edge lies within a texel of level 2 has no such level.
-    plan.views[0].tile.height = 254;
+    plan.views[0].place.tile.height = 254;
     options.mip_levels = 9;
     const std::uint64_t two = 256 * 254 + 128 * 127;
     const std::uint64_t with_two = leastBytes(seen, lights, plan, options);

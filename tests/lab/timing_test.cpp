@@ -61,17 +61,17 @@ TEST(Stages, SumThePassesOfTheirName)
 
     Plan plan;
     plan.views.resize(2);
-    plan.views[0].tile = {.width = 10, .height = 20};
-    plan.views[1].tile = {.width = 30, .height = 30};
-    plan.views[1].redraw = false;
+    plan.views[0].place.tile = {.width = 10, .height = 20};
+    plan.views[1].place.tile = {.width = 30, .height = 30};
+    plan.views[1].contents.redraw = false;
     EXPECT_EQ(countersOf(times, plan, false).texels_rendered, 200U);
     EXPECT_EQ(countersOf(times, plan, true).texels_rendered, 1100U);
-    plan.views[0].kept_layer = 0; // restored, and a corner drawn over
-    plan.views[0].dirty = {5, 5, 3, 4};
+    plan.views[0].contents.kept_layer = 0; // restored, and a corner drawn over
+    plan.views[0].contents.dirty = {5, 5, 3, 4};
     EXPECT_EQ(countersOf(times, plan, false).texels_rendered, 12U);
     EXPECT_EQ(countersOf(times, plan, true).texels_rendered, 2U * 200U + 900U);
-    plan.views[0].redraw_kept = true;
-    plan.views[0].dirty = {0, 0, 10, 20};
+    plan.views[0].contents.redraw_kept = true;
+    plan.views[0].contents.dirty = {0, 0, 10, 20};
     EXPECT_EQ(countersOf(times, plan, false).texels_rendered, 2U * 200U);
     EXPECT_EQ(countersOf(times, plan, true).draws, 8U);
     EXPECT_EQ(countersOf(times, plan, true).vertex_invocations, 400U);
@@ -171,7 +171,7 @@ TEST_F(TimeInTurn, KeepsEachOnesFramesAndWhatTheyTook)
     EXPECT_GT(least(0), 64U * 36U * (4 + 4 + 4 + 4)); // two lights: four bytes of mask
     EXPECT_LT(least(0), 64U * 36U * (4 + 4 + 4 + 4 + 2 * 4));
     EXPECT_EQ(result.techniques[2].plan.views.size(), 2U);
-    EXPECT_EQ(result.techniques[2].plan.views[0].tile.width, 256U);
+    EXPECT_EQ(result.techniques[2].plan.views[0].place.tile.width, 256U);
 }
 
 TEST_F(TimeInTurn, DrawsEveryMapAnewUnlessAskedToKeepThem)
@@ -210,7 +210,7 @@ TEST_F(TimeInTurn, ManyHaveABaselineForEachGroup)
     EXPECT_EQ(timingSteps(stage.subject(), contestants, options), steps);
     ASSERT_EQ(result.techniques.size(), kMaxTogether + 1);
     EXPECT_EQ(result.baseline.samples.size(), 4U);
-    EXPECT_EQ(result.techniques.back().plan.views[0].tile.width, 256U);
+    EXPECT_EQ(result.techniques.back().plan.views[0].place.tile.width, 256U);
     EXPECT_EQ(result.techniques.back().added_memory.empty(), false);
     for (const Timed& timed : result.techniques) {
         EXPECT_EQ(timed.samples.size(), 2U);

@@ -51,7 +51,7 @@ TEST(MaskDraws, OneWarpedViewIsEnoughForAPerspectiveShader)
     by_hand.add(0, 1);
     by_hand.add(0, 2);
     EXPECT_TRUE(drawsOf(by_hand.plan)[0].orthographic);
-    by_hand.plan.views[2].orthographic = false;
+    by_hand.plan.views[2].projection.orthographic = false;
     EXPECT_FALSE(drawsOf(by_hand.plan)[0].orthographic);
 }
 
@@ -91,23 +91,23 @@ TEST(MaskDraws, FewViewsAreToldApartByWhatSetsThemApart)
         return drawsOf(by_hand.plan)[0].told_apart;
     };
     EXPECT_EQ(told(one), pack::ToldApart::alone);
-    one.plan.views[0].slice.end_m = 5.0;
+    one.plan.views[0].serves.slice.end_m = 5.0;
     EXPECT_EQ(told(one), pack::ToldApart::tests) << "it does not serve what is farther";
-    one.plan.views[0].slice = {};
-    one.plan.views[0].gpu_cascade = 0;
+    one.plan.views[0].serves.slice = {};
+    one.plan.views[0].projection.gpu_cascade = 0;
     EXPECT_EQ(told(one), pack::ToldApart::tests) << "the GPU gives it a slice";
 
     PlanByHand several({cascades});
     several.add(0, 3);
     for (View& view : several.plan.views) {
-        view.slice.axis = {0.0, 0.0, -1.0, 2.0};
-        view.slice.end_m = 5.0;
+        view.serves.slice.axis = {0.0, 0.0, -1.0, 2.0};
+        view.serves.slice.end_m = 5.0;
     }
     EXPECT_EQ(told(several), pack::ToldApart::slices);
-    several.plan.views[1].slice.axis.w = 3.0;
+    several.plan.views[1].serves.slice.axis.w = 3.0;
     EXPECT_EQ(told(several), pack::ToldApart::tests) << "one counts from elsewhere";
-    several.plan.views[1].slice.axis.w = 2.0;
-    several.plan.views[2].sector.x = {1.0, 0.0, 0.0, 0.0};
+    several.plan.views[1].serves.slice.axis.w = 2.0;
+    several.plan.views[2].serves.sector.x = {1.0, 0.0, 0.0, 0.0};
     EXPECT_EQ(told(several), pack::ToldApart::tests) << "one stands beside others";
 }
 
@@ -122,8 +122,8 @@ TEST(MaskDraws, OneViewOfEachPositionOfASunIsKnown)
 
     PlanByHand two({stepping});
     LightPlan& light = two.add(0, 2);
-    two.plan.views[0].sun = SunPosition::earlier;
-    two.plan.views[1].sun = SunPosition::later;
+    two.plan.views[0].serves.sun = SunPosition::earlier;
+    two.plan.views[1].serves.sun = SunPosition::later;
     light.steps.paired = true;
     light.steps.band = 0.1;
     light.steps.edge = 0.5;
@@ -134,13 +134,13 @@ TEST(MaskDraws, OneViewOfEachPositionOfASunIsKnown)
         EXPECT_EQ(draw.few_views, 0U) << "where there are no modules for one view they are looked up";
     }
     EXPECT_TRUE(!draws[0].paired && draws[1].paired && !draws[2].paired) << "the band alone reads two maps";
-    two.plan.views[1].slice.end_m = 5.0;
+    two.plan.views[1].serves.slice.end_m = 5.0;
     EXPECT_EQ(drawsOf(two.plan)[1].told_apart, pack::ToldApart::tests) << "it does not serve what is farther";
     EXPECT_FALSE(drawsOf(two.plan)[1].paired);
 
     PlanByHand divided({stepping});
     divided.add(0, 4).steps.paired = true;
-    divided.plan.views[2].sun = divided.plan.views[3].sun = SunPosition::later;
+    divided.plan.views[2].serves.sun = divided.plan.views[3].serves.sun = SunPosition::later;
     EXPECT_EQ(drawsOf(divided.plan)[0].told_apart, pack::ToldApart::tests) << "each position has two views";
 }
 
@@ -176,8 +176,8 @@ TEST(MaskDraws, HaveRoomForTheirLightsHoweverSunsStand)
     PlanByHand by_hand({stepping, ShadowOptions{.technique = kPlainTechnique}});
     for (std::uint32_t i = 0; i < 4; ++i) {
         LightPlan& light = by_hand.add(i % 2, 2);
-        by_hand.plan.views.back().sun = SunPosition::later;
-        by_hand.plan.views[light.first_view].sun = SunPosition::earlier;
+        by_hand.plan.views.back().serves.sun = SunPosition::later;
+        by_hand.plan.views[light.first_view].serves.sun = SunPosition::earlier;
         light.steps.paired = true;
         light.steps.band = 0.1;
         light.steps.edge = 0.2 + 0.2 * i;

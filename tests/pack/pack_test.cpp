@@ -31,7 +31,7 @@ TEST(FramePasses, ComeInTheOrderInWhichTheyNeedEachOther)
     by_hand.add(2, 1);
     by_hand.add(0, 1);
     by_hand.add(0, 0);
-    by_hand.plan.views[0].gpu_cascade = 0;
+    by_hand.plan.views[0].projection.gpu_cascade = 0;
     by_hand.plan.lights[1].steps.paired = by_hand.plan.lights[1].steps.alternate = true;
     by_hand.plan.lights[0].sample.joined = true;
     const auto passes = passesOf(by_hand.plan);
@@ -63,19 +63,19 @@ TEST(CasterRows, ComposeInDoublePrecision)
 {
     const glm::dvec3 place(1.0e7, 10.0, 0.0);
     View view;
-    view.clip_from_world = glm::translate(glm::dmat4(1.0), -place);
-    view.metric.metric_ws = {0.0, -0.01, 0.0, 0.6};
+    view.projection.clip_from_world = glm::translate(glm::dmat4(1.0), -place);
+    view.projection.metric.metric_ws = {0.0, -0.01, 0.0, 0.6};
     const pack::Rows3x4 transform{{2, 0, 0, 1.0e7F}, {0, 2, 0, 10}, {0, 0, 2, 0}};
     std::array<glm::vec4, pack::casterRowCount(true)> rows{};
     EXPECT_EQ(pack::CasterRows(view).write(transform, rows.data()), rows.data() + rows.size());
     EXPECT_EQ(rows[0], glm::vec4(2, 0, 0, 0)) << "the large numbers cancel before they are rounded";
     EXPECT_NEAR(rows[2].w, 0.5F, 1e-6F);
-    view.orthographic = false;
+    view.projection.orthographic = false;
     std::array<glm::vec4, pack::casterRowCount(false)> more{};
     EXPECT_EQ(pack::CasterRows(view).write(transform, more.data()), more.data() + more.size());
     EXPECT_EQ(more[3], glm::vec4(0, 0, 0, 1)) << "w comes before the metric";
-    view.metric.near_m = 20.0;
-    view.metric.far_m = 120.0;
+    view.projection.metric.near_m = 20.0;
+    view.projection.metric.far_m = 120.0;
     std::array<glm::vec4, pack::casterRowCount(false)> biased{};
     (void)pack::CasterRows(view).write(transform, biased.data(), 2.0);
     EXPECT_NEAR(biased[4].w, more[4].w + 0.02F, 1e-6F) << "two metres of a hundred";
@@ -114,7 +114,7 @@ TEST(DepthLayers, KeepTheirPlaceAsLongAsTheirMapHasItsName)
     PlanByHand by_hand({filteredBy(Filter::lvsm)});
     by_hand.add(0, 2);
     EXPECT_EQ(pack::depthLayersSlot(by_hand.plan, 1), 1U) << "a map without a name: by its view";
-    by_hand.plan.views[1].map = {7, 3};
+    by_hand.plan.views[1].place.map = {7, 3};
     EXPECT_EQ(pack::depthLayersSlot(by_hand.plan, 1), 7U);
     EXPECT_EQ(pack::depthLayersCount(by_hand.plan), 8U);
     by_hand.plan.map_count = 12; // others are out of sight
@@ -132,7 +132,7 @@ TEST(CascadeLights, AreOnlyThoseThatTheGpuFits)
     by_hand.add(0, 1);
     by_hand.add(1, 3);
     for (std::uint32_t i = 0; i < 3; ++i) {
-        by_hand.plan.views[1 + i].gpu_cascade = i;
+        by_hand.plan.views[1 + i].projection.gpu_cascade = i;
     }
     ASSERT_EQ(pack::cascadeLightCount(by_hand.plan), 1U);
     std::array<shared::GpuCascadeLight, 2> lights{};

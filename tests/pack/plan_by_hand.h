@@ -50,7 +50,7 @@ struct PlanByHand {
         for (std::uint32_t i = 0; i < views; ++i) {
             View view;
             view.light = index;
-            view.tile = {static_cast<std::uint32_t>(plan.views.size()), 0, 0, 256, 256};
+            view.place.tile = {static_cast<std::uint32_t>(plan.views.size()), 0, 0, 256, 256};
             plan.views.push_back(view);
         }
         plan.mask_layers = index / 4 + 1;

@@ -26,14 +26,15 @@ TEST(ShadingBuffers, TakeAPointToItsTexelHoweverFarFromTheOrigin)
     by_hand.add(0, 1);
     by_hand.plan.made_for.camera = cameraAt(kFarAway);
     View& view = by_hand.plan.views[0];
-    view.tile = {2, 64, 32, 256, 128};
-    view.clip_from_world = glm::orthoRH_ZO(-20.0, 20.0, -10.0, 10.0, 0.0, 100.0) *
-                           glm::lookAtRH(kFarAway, kFarAway - glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0));
+    view.place.tile = {2, 64, 32, 256, 128};
+    view.projection.clip_from_world =
+        glm::orthoRH_ZO(-20.0, 20.0, -10.0, 10.0, 0.0, 100.0) *
+        glm::lookAtRH(kFarAway, kFarAway - glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0));
     std::vector<shared::GpuView> views(1);
     const pack::MapImage image{{1024, 1024}, 1};
     pack::fillViews(by_hand.plan, {&image, 1}, views);
     const glm::dvec3 from_eye(3.0, -8.0, -5.0);
-    const glm::dvec4 clip = view.clip_from_world * glm::dvec4(kFarAway + from_eye, 1.0);
+    const glm::dvec4 clip = view.projection.clip_from_world * glm::dvec4(kFarAway + from_eye, 1.0);
     const glm::vec4 point(glm::vec3(from_eye), 1.0F);
     EXPECT_NEAR(glm::dot(views[0].x, point), 64.0 + (0.5 * clip.x + 0.5) * 256.0, 1e-3);
     EXPECT_NEAR(glm::dot(views[0].y, point), 32.0 + (0.5 * clip.y + 0.5) * 128.0, 1e-3);
@@ -113,8 +114,8 @@ TEST(ShadingBuffers, ByTurnsTheMapsThatAreDrawnAreReadAlone)
 {
     PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}});
     LightPlan& light = by_hand.add(0, 2);
-    by_hand.plan.views[0].sun = SunPosition::earlier;
-    by_hand.plan.views[1].sun = SunPosition::later;
+    by_hand.plan.views[0].serves.sun = SunPosition::earlier;
+    by_hand.plan.views[1].serves.sun = SunPosition::later;
     light.steps.paired = true;
     std::vector<shared::GpuLight> lights(1);
     pack::fillLights(by_hand.plan, lights);

@@ -359,13 +359,16 @@ TEST(Msm, slopesAreLitAndDarkAlike)
                 test::map_moments = [&](glm::dvec2, double, double) {
                     return map;
                 };
-                EXPECT_GT(filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer)), 0.995) << flags << ' ' << sigma << ' ' << steep;
+                EXPECT_GT(filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer)), 0.995)
+                    << flags << ' ' << sigma << ' ' << steep;
                 darkest_before = std::min(darkest_before, msmVisibility(map, 0.2, f.moments));
                 map = blurredPlane(0.2, 2.0 * point.depth_slope, sigma, flags, -0.4, 1.0);
-                EXPECT_LT(filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer)), 0.005) << flags << ' ' << sigma << ' ' << steep;
+                EXPECT_LT(filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer)), 0.005)
+                    << flags << ' ' << sigma << ' ' << steep;
                 if (steep * sigma <= 0.005) { // half of it below an occluder
                     map = blurredPlane(0.2, 2.0 * point.depth_slope, sigma, flags, -0.4, 0.5);
-                    EXPECT_NEAR(filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer)), 0.5, 0.02) << flags << ' ' << sigma << ' ' << steep;
+                    EXPECT_NEAR(filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer)), 0.5, 0.02)
+                        << flags << ' ' << sigma << ' ' << steep;
                 }
             }
         }
@@ -421,7 +424,8 @@ TEST(Msm, hostileValuesStayInRange)
                             };
                             for (const double depth : values) {
                                 point.depth = depth;
-                                const double v = filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer));
+                                const double v =
+                                    filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer));
                                 EXPECT_TRUE(v >= 0.0 && v <= 1.0) << v;
                             }
                         }

@@ -109,12 +109,13 @@ TEST_P(Blur, isTheConvolutionOnBothPaths)
         EXPECT_EQ(after.cost.path, path);
         for (std::size_t layer = 0; layer < after.layers.size(); ++layer) {
             for (const View& view : plan.views) {
-                const Texels source = texelsOf(before.layers[layer], view.tile);
+                const Texels source = texelsOf(before.layers[layer], view.place.tile);
                 const glm::dvec4 lit = source[0]; // of the ring
                 const Texels expected =
-                    convolve(convolve(source, view.tile, filter, lit, true), view.tile, filter, lit, false);
-                EXPECT_LE(worstDifference(expected, texelsOf(after.layers[layer], view.tile), channelsOf(c.format)),
-                          c.tolerance)
+                    convolve(convolve(source, view.place.tile, filter, lit, true), view.place.tile, filter, lit, false);
+                EXPECT_LE(
+                    worstDifference(expected, texelsOf(after.layers[layer], view.place.tile), channelsOf(c.format)),
+                    c.tolerance)
                     << nameOf(path) << ", layer " << layer << ", light " << view.light;
                 EXPECT_GT(worstDifference(expected, source, channelsOf(c.format)), 0.01) << "it must do something";
             }
@@ -163,8 +164,8 @@ TEST(BlurBlocks, withoutCastersInReachAreSkippedAndLit)
     const Scene scene = makeScene();
     Plan plan = momentPlan(scene);
     for (View& view : plan.views) { // without the ground, which fills everything
-        ++view.first_caster;
-        --view.caster_count;
+        ++view.casters.first;
+        --view.casters.count;
     }
     const CpuMap depths = drawDepths(scene, plan);
     ShadowOptions filter = momentFilter(Filter::vsm, MapFormat::rg32f);
@@ -175,7 +176,7 @@ TEST(BlurBlocks, withoutCastersInReachAreSkippedAndLit)
         std::uint64_t along_y = 0;
         std::uint64_t all = 0; // along x
         for (const View& view : plan.views) {
-            const Tile& tile = view.tile;
+            const Tile& tile = view.place.tile;
             const int columns = static_cast<int>(tile.width + 31) / 32;
             const int rows = static_cast<int>(tile.height + 31) / 32;
             const auto isReachedAlongX = [&](int bx, int by) {
@@ -234,8 +235,10 @@ TEST(MipLevels, areAveragesOfFour)
             for (std::uint32_t level = 1; level <= coarsest; ++level) {
                 const std::size_t fine_width = map.width >> (level - 1);
                 double worst = 0.0;
-                for (std::uint32_t y = view.tile.y >> level; y < (view.tile.y + view.tile.height) >> level; ++y) {
-                    for (std::uint32_t x = view.tile.x >> level; x < (view.tile.x + view.tile.width) >> level; ++x) {
+                for (std::uint32_t y = view.place.tile.y >> level;
+                     y < (view.place.tile.y + view.place.tile.height) >> level; ++y) {
+                    for (std::uint32_t x = view.place.tile.x >> level;
+                         x < (view.place.tile.x + view.place.tile.width) >> level; ++x) {
                         std::vector<std::pair<glm::dvec4, double>> four;
                         for (std::size_t i = 0; i < 4; ++i) {
                             four.emplace_back(map.levels[level - 1][(2 * y + i / 2) * fine_width + 2 * x + i % 2],

@@ -62,8 +62,8 @@ struct FittedHost {
             plan.lights[light].view_count = kCascades;
             for (std::uint32_t i = 0; i < kCascades; ++i) {
                 plan.views.push_back(bases[light]);
-                plan.views.back().gpu_cascade = i;
-                plan.views.back().tile.layer = light * kCascades + i;
+                plan.views.back().projection.gpu_cascade = i;
+                plan.views.back().place.tile.layer = light * kCascades + i;
             }
         }
         ShadowOptions options{.technique = kPlainTechnique};
@@ -142,7 +142,7 @@ TEST(CascadeFitter, RecordsNothingForOtherViews)
     NullDriver driver;
     FittedHost host(driver);
     for (View& view : host.plan.views) {
-        view.gpu_cascade = kNoIndex;
+        view.projection.gpu_cascade = kNoIndex;
     }
     (void)host.renderer.prepare(host.plan, kScreen);
     host.record(0);

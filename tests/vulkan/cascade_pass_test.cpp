@@ -37,23 +37,24 @@ std::ostream& operator<<(std::ostream& out, const Case& c)
 View partOf(View view, double zoom, double x, double y)
 {
     const glm::dmat4 scale = glm::scale(glm::dmat4(1.0), {zoom, zoom, 1.0});
-    view.clip_from_world = scale * glm::translate(glm::dmat4(1.0), {-x, -y, 0.0}) * view.clip_from_world;
+    view.projection.clip_from_world =
+        scale * glm::translate(glm::dmat4(1.0), {-x, -y, 0.0}) * view.projection.clip_from_world;
     return view;
 }
 
 void addParts(Plan& plan, const View& base, std::uint32_t count)
 {
-    std::vector<std::uint32_t> all(plan.casters.begin() + base.first_caster,
-                                   plan.casters.begin() + base.first_caster + base.caster_count);
+    std::vector<std::uint32_t> all(plan.casters.begin() + base.casters.first,
+                                   plan.casters.begin() + base.casters.first + base.casters.count);
     for (std::uint32_t i = 0; i < count; ++i) {
         // A shift is by parts of clip space, which is w wide in perspective: none there.
-        const double shift = base.orthographic ? 0.08 * i : 0.0;
+        const double shift = base.projection.orthographic ? 0.08 * i : 0.0;
         View view = partOf(base, 1.0 + 0.6 * i, shift, -shift);
-        view.tile.layer = 1 + i;
-        view.first_caster = static_cast<std::uint32_t>(plan.casters.size());
+        view.place.tile.layer = 1 + i;
+        view.casters.first = static_cast<std::uint32_t>(plan.casters.size());
         std::copy_if(all.begin(), all.end(), std::back_inserter(plan.casters),
                      [&](std::uint32_t handle) { return i == 0 || handle != i; });
-        view.caster_count = static_cast<std::uint32_t>(plan.casters.size()) - view.first_caster;
+        view.casters.count = static_cast<std::uint32_t>(plan.casters.size()) - view.casters.first;
         plan.views.push_back(view);
     }
 }
@@ -176,7 +177,7 @@ TEST_P(CascadePasses, giveTheSameMapsBitForBit)
     moveBoxes();
     for (Bench* bench : {&each, &together}) {
         for (const std::uint32_t held : {0U, 2U, views + 1}) {
-            bench->plan.views[held].redraw = false;
+            bench->plan.views[held].contents.redraw = false;
         }
     }
     const std::vector<std::uint32_t> rest =
@@ -189,7 +190,7 @@ TEST_P(CascadePasses, giveTheSameMapsBitForBit)
     moveBoxes();
     for (Bench* bench : {&each, &together}) {
         for (View& view : bench->plan.views) {
-            view.redraw = true;
+            view.contents.redraw = true;
         }
     }
     EXPECT_EQ(record(), std::vector<std::uint32_t>(views + 2, 1));
@@ -202,8 +203,8 @@ TEST_P(CascadePasses, giveTheSameMapsBitForBit)
 TEST_P(CascadePasses, wouldDifferIfACasterWereDrawnForAViewThatLeavesItOut)
 {
     for (View& view : together.plan.views) {
-        view.first_caster = together.plan.views.front().first_caster;
-        view.caster_count = together.plan.views.front().caster_count;
+        view.casters.first = together.plan.views.front().casters.first;
+        view.casters.count = together.plan.views.front().casters.count;
     }
     (void)record();
     EXPECT_GT(differences(), 100U);

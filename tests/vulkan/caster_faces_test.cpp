@@ -211,8 +211,8 @@ TEST_P(CasterFacesOnGpu, pagesGrowUnderTheMidpoint)
     bench.prepare();
     bench.record(1);
     for (View& view : bench.plan.views) {
-        view.tile.x = kSide;
-        view.redraw = true;
+        view.place.tile.x = kSide;
+        view.contents.redraw = true;
     }
     bench.plan.pages[0].width = 2 * kSide;
     bench.prepare();

@@ -46,13 +46,13 @@ private:
     }
     [[nodiscard]] glm::dvec3 clipOf(const glm::dvec4& p) const
     {
-        const glm::dvec4 clip = view_.clip_from_world * p;
+        const glm::dvec4 clip = view_.projection.clip_from_world * p;
         return {clip.x, clip.y, clip.w};
     }
     /// In the tile.
     [[nodiscard]] glm::dvec2 texelOf(const glm::dvec3& clip) const
     {
-        return (glm::dvec2(clip) / clip.z * 0.5 + 0.5) * glm::dvec2(view_.tile.width, view_.tile.height);
+        return (glm::dvec2(clip) / clip.z * 0.5 + 0.5) * glm::dvec2(view_.place.tile.width, view_.place.tile.height);
     }
     [[nodiscard]] std::optional<Fin> finOf(std::size_t object, const vulkan::VolumeMesh& mesh,
                                            const glm::uvec4& element) const
@@ -74,10 +74,10 @@ private:
             return std::nullopt;
         }
         const auto depth = [&](double t) {
-            return glm::dot(view_.metric.metric_ws, glm::mix(from, to, t));
+            return glm::dot(view_.projection.metric.metric_ws, glm::mix(from, to, t));
         };
-        const double near_a = view_.clamp_near ? 0.0 : depth(0.0);
-        const double near_b = view_.clamp_near ? 0.0 : depth(1.0);
+        const double near_a = view_.projection.clamp_near ? 0.0 : depth(0.0);
+        const double near_b = view_.projection.clamp_near ? 0.0 : depth(1.0);
         const double begin = std::max(shared::finCut(a.z, b.z), shared::finBeforeNear(near_a, near_b));
         const double end = 1.0 - std::max(shared::finCut(b.z, a.z), shared::finBeforeNear(near_b, near_a));
         if (begin >= end) {
@@ -99,10 +99,12 @@ private:
 
 std::vector<int> finsOf(const Scene& scene, const View& view, const CpuMap& map, int reach, double quantum)
 {
-    const auto width = static_cast<int>(view.tile.width);
-    const auto height = static_cast<int>(view.tile.height);
+    const auto width = static_cast<int>(view.place.tile.width);
+    const auto height = static_cast<int>(view.place.tile.height);
     const auto depth = [&](int x, int y) {
-        return texelAt(map, 0, view.tile.x + std::clamp(x, 0, width - 1), view.tile.y + std::clamp(y, 0, height - 1)).x;
+        return texelAt(map, 0, view.place.tile.x + std::clamp(x, 0, width - 1),
+                       view.place.tile.y + std::clamp(y, 0, height - 1))
+            .x;
     };
     const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     std::vector<int> made(count, shared::packSmoothie({1.0, -1.0}));

@@ -19,7 +19,7 @@ namespace {
 class ViewRays {
 public:
     ViewRays(const Scene& scene, const View& view)
-        : scene_(scene), view_(view), world_from_clip_(glm::inverse(view.clip_from_world))
+        : scene_(scene), view_(view), world_from_clip_(glm::inverse(view.projection.clip_from_world))
     {
     }
     [[nodiscard]] std::optional<Hit> hit(const glm::dvec2& texel) const
@@ -35,14 +35,14 @@ public:
         const glm::dvec3 here = at(texel, 0.0);
         const glm::dvec3 way = at(texel, 1.0) - here;
         const double t = glm::dot(hit.normal, on_plane - here) / glm::dot(hit.normal, way);
-        return glm::dot(view_.metric.metric_ws, glm::dvec4(here + way * t, 1.0));
+        return glm::dot(view_.projection.metric.metric_ws, glm::dvec4(here + way * t, 1.0));
     }
 
 private:
     [[nodiscard]] glm::dvec3 at(const glm::dvec2& texel, double z) const
     {
-        const glm::dvec2 place =
-            (texel - glm::dvec2(view_.tile.x, view_.tile.y)) / glm::dvec2(view_.tile.width, view_.tile.height);
+        const glm::dvec2 place = (texel - glm::dvec2(view_.place.tile.x, view_.place.tile.y)) /
+                                 glm::dvec2(view_.place.tile.width, view_.place.tile.height);
         const glm::dvec4 h = world_from_clip_ * glm::dvec4(2.0 * place - 1.0, z, 1.0);
         return glm::dvec3(h) / h.w;
     }

@@ -64,7 +64,7 @@ struct Turns {
     }
     [[nodiscard]] std::vector<float> mapOf(std::size_t light)
     {
-        const Tile tile = bench.plan.views.at(bench.plan.lights.at(light).first_view).tile;
+        const Tile tile = bench.plan.views.at(bench.plan.lights.at(light).first_view).place.tile;
         return bench.readMap(tile.layer);
     }
 

@@ -66,8 +66,8 @@ private:
 Plan sparseOf(Plan plan)
 {
     for (View& view : plan.views) {
-        view.first_caster += 1;
-        view.caster_count = 1;
+        view.casters.first += 1;
+        view.casters.count = 1;
     }
     return plan;
 }
@@ -77,7 +77,7 @@ std::size_t differingTexels(const std::vector<CpuMap>& a, const std::vector<CpuM
     std::size_t different = 0;
     for (std::size_t layer = 0; layer < a.size(); ++layer) {
         for (const View& view : plan.views) {
-            const Tile& tile = view.tile;
+            const Tile& tile = view.place.tile;
             const auto last =
                 static_cast<std::size_t>(coarsestOf(tile, static_cast<std::uint32_t>(a[layer].levels.size())));
             for (std::size_t level = 0; level <= last; ++level) {

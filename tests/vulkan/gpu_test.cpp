@@ -41,9 +41,9 @@ TEST_F(OnGpu, viewsThatHoldKeepTheirTexels)
         bench.prepare();
         bench.record(1);
         const auto before = bench.readMap(0);
-        bench.plan.views[0].redraw = false;
-        bench.plan.views[1].redraw = true;
-        bench.plan.views[1].caster_count = 0; // now it is drawn empty
+        bench.plan.views[0].contents.redraw = false;
+        bench.plan.views[1].contents.redraw = true;
+        bench.plan.views[1].casters.count = 0; // now it is drawn empty
         bench.record(2);
         const auto after = bench.readMap(0);
         std::size_t kept = 0;
@@ -67,7 +67,7 @@ TEST_F(OnGpu, castersBeforeTheNearPlaneAreClampedOrCut)
     bench.prepare();
     bench.record(1);
     EXPECT_EQ(bench.readMap(0)[64 * 128 + 64], 0.0F) << "clamped onto the near plane";
-    bench.plan.views[0].clamp_near = false;
+    bench.plan.views[0].projection.clamp_near = false;
     bench.record(1);
     EXPECT_NEAR(bench.readMap(0)[64 * 128 + 64], 15.0 / 45.0, 1e-5) << "cut: the ground shows";
 }

@@ -67,7 +67,7 @@ protected:
     {
         const vulkan::ImageRef maps = renderer_->maps();
         const std::uint32_t bytes = texelBytes(maps.format);
-        const Tile& tile = plan_.views[view].tile;
+        const Tile& tile = plan_.views[view].place.tile;
         const std::uint32_t levels = levelsOf(options_, plan_.pages[0]);
         for (std::uint32_t layer = 0; layer < maps.layers; ++layer) {
             for (std::uint32_t level = 0; level < levels; ++level) {

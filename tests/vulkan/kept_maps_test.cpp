@@ -48,13 +48,14 @@ TexelRect rectOf(const View& view, const Box& box)
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 corner((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
         const double reach = glm::length(box.half); // turned by whatever angle
-        const glm::dvec4 clip = view.clip_from_world * glm::dvec4(box.centre + corner * reach, 1.0);
-        const glm::dvec2 at = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(view.tile.width, view.tile.height);
+        const glm::dvec4 clip = view.projection.clip_from_world * glm::dvec4(box.centre + corner * reach, 1.0);
+        const glm::dvec2 at =
+            (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(view.place.tile.width, view.place.tile.height);
         low = glm::min(low, at - 1.0);
         high = glm::max(high, at + 1.0);
     }
-    low = glm::clamp(glm::floor(low), glm::dvec2(0.0), glm::dvec2(view.tile.width, view.tile.height));
-    high = glm::clamp(glm::ceil(high), low, glm::dvec2(view.tile.width, view.tile.height));
+    low = glm::clamp(glm::floor(low), glm::dvec2(0.0), glm::dvec2(view.place.tile.width, view.place.tile.height));
+    high = glm::clamp(glm::ceil(high), low, glm::dvec2(view.place.tile.width, view.place.tile.height));
     return {static_cast<std::uint32_t>(low.x), static_cast<std::uint32_t>(low.y),
             static_cast<std::uint32_t>(high.x - low.x), static_cast<std::uint32_t>(high.y - low.y)};
 }
@@ -76,13 +77,13 @@ Plan makeKeptPlan(const Scene& scene, std::span<const Light> lights, bool paired
     const std::vector<Tile> tiles{{0, 0, 0, kMapSize, kMapSize}, {spot_layer, 0, 0, kMapSize, kMapSize}};
     Plan plan = makePlan(scene, lights, tiles, {kMapSize, kMapSize, spot_layer + 1});
     View later = makeView(scene, makeSun({0.5, -0.9, -0.6}), 0, {paired ? 0U : 1U, 0, 0, kMapSize, kMapSize});
-    later.caster_count = plan.views[0].caster_count;
-    later.sun = SunPosition::later;
-    plan.views[0].sun = SunPosition::earlier;
+    later.casters.count = plan.views[0].casters.count;
+    later.serves.sun = SunPosition::later;
+    plan.views[0].serves.sun = SunPosition::earlier;
     plan.views.insert(plan.views.begin() + 1, later);
     if (paired) {
-        plan.views[0].part = TexelPart::first;
-        plan.views[1].part = TexelPart::second;
+        plan.views[0].place.part = TexelPart::first;
+        plan.views[1].place.part = TexelPart::second;
     }
     plan.lights[0].view_count = 2;
     plan.lights[0].steps.stepping = true;
@@ -91,9 +92,9 @@ Plan makeKeptPlan(const Scene& scene, std::span<const Light> lights, bool paired
     plan.lights[1].first_view = 2;
     plan.pages[0].kept_layers = 3;
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
-        plan.views[i].still_count = 1 + kStillBoxes;
-        plan.views[i].kept_layer = shares ? 1 - i / 2 : 2 - i; // any order
-        plan.views[i].redraw_kept = true;
+        plan.views[i].casters.still = 1 + kStillBoxes;
+        plan.views[i].contents.kept_layer = shares ? 1 - i / 2 : 2 - i; // any order
+        plan.views[i].contents.redraw_kept = true;
     }
     return plan;
 }
@@ -101,8 +102,8 @@ Plan makeKeptPlan(const Scene& scene, std::span<const Light> lights, bool paired
 Plan atOnce(Plan plan)
 {
     for (View& view : plan.views) {
-        view.kept_layer = kNoIndex;
-        view.redraw_kept = false;
+        view.contents.kept_layer = kNoIndex;
+        view.contents.redraw_kept = false;
     }
     plan.pages[0].kept_layers = 0;
     return plan;
@@ -141,8 +142,8 @@ public:
         for (std::size_t i = 0; i < kept.plan.views.size(); ++i) {
             addDirty(i);
             View& view = kept.plan.views[i];
-            view.redraw_kept = false;
-            view.dirty = dirty_[i];
+            view.contents.redraw_kept = false;
+            view.contents.dirty = dirty_[i];
         }
     }
     void record()
@@ -163,7 +164,7 @@ public:
             });
         }
         for (std::size_t i = 0; i < kept.plan.views.size(); ++i) {
-            if (kept.plan.views[i].redraw) {
+            if (kept.plan.views[i].contents.redraw) {
                 dirty_[i] = {};
             }
         }
@@ -190,7 +191,7 @@ public:
         const VkImageAspectFlags aspect = depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
         std::size_t count = 0;
         for (const View& view : kept.plan.views) { // layers that have no map hold anything
-            const std::uint32_t layer = view.tile.layer;
+            const std::uint32_t layer = view.place.tile.layer;
             const auto x = gpu().read(a, layer, texelBytes(a.format), aspect);
             const auto y = gpu().read(b, layer, texelBytes(b.format), aspect);
             const std::size_t row = std::size_t{a.extent.width} * texelBytes(a.format);
@@ -228,7 +229,7 @@ TEST_P(KeptMaps, holdWhatMapsHoldThatAreDrawnAtOnce)
     for (int frame = 0; frame < 4; ++frame) {
         pair.move();
         for (Bench* bench : {&pair.kept, &pair.whole}) {
-            bench->plan.views[0].redraw = frame != 1; // nobody reads it then
+            bench->plan.views[0].contents.redraw = frame != 1; // nobody reads it then
         }
         pair.record();
         EXPECT_EQ(pair.differences(), 0U) << "frame " << frame;
@@ -237,7 +238,7 @@ TEST_P(KeptMaps, holdWhatMapsHoldThatAreDrawnAtOnce)
     pair.grow();
     for (Bench* bench : {&pair.kept, &pair.whole}) {
         for (View& view : bench->plan.views) {
-            view.redraw = false;
+            view.contents.redraw = false;
         }
     }
     pair.record();
@@ -247,8 +248,8 @@ TEST_P(KeptMaps, holdWhatMapsHoldThatAreDrawnAtOnce)
     pair.move();
     for (Bench* bench : {&pair.kept, &pair.whole}) {
         for (View& view : bench->plan.views) {
-            view.redraw = true;
-            view.dirty = {0, 0, kMapSize, kMapSize};
+            view.contents.redraw = true;
+            view.contents.dirty = {0, 0, kMapSize, kMapSize};
         }
     }
     pair.record();
@@ -264,9 +265,9 @@ TEST_P(KeptMaps, aPlanThatForgetsWhatMovedIsSeen)
     pair.record();
     pair.move();
     for (View& view : pair.kept.plan.views) {
-        view.dirty = {0, 0, 2, 2};
+        view.contents.dirty = {0, 0, 2, 2};
         // A filterable map is restored whole: there it is the movers themselves that must be missing.
-        view.caster_count = view.still_count;
+        view.casters.count = view.casters.still;
     }
     pair.record();
     EXPECT_GT(pair.differences(), 100U);
@@ -300,7 +301,7 @@ TEST(KeptMapsCount, whatIsReused)
     EXPECT_EQ(pair.whole.renderer.reuse(0).drawn, 3U);
     EXPECT_EQ(pair.whole.renderer.reuse(0).casters_at_once, 3U * (1 + kStillBoxes + 3U));
     pair.move();
-    pair.kept.plan.views[2].redraw = false;
+    pair.kept.plan.views[2].contents.redraw = false;
     pair.record();
     reuse = pair.kept.renderer.reuse(0);
     EXPECT_EQ(reuse.kept_drawn, 0U);

@@ -127,10 +127,10 @@ TEST_F(LayersOfDepth, followWhatIsStoredUnderASpot)
     ShadowOptions filter = lvsm(LayerPlacement::lloyd, 4);
     filter.moments.metric = DepthMetricKind::z_over_w;
     View view = viewOf(kWhole);
-    view.orthographic = false;
-    view.parallel = false;
-    view.metric.near_m = 5.0;
-    view.metric.far_m = 100.0;
+    view.projection.orthographic = false;
+    view.projection.parallel = false;
+    view.projection.metric.near_m = 5.0;
+    view.projection.metric.far_m = 100.0;
     Placed placed(filter);
     const std::vector<float> depths = depthsOf();
     const auto layers = placed.place(view, depths);
@@ -274,7 +274,7 @@ TEST_F(LayersOfDepth, areTheirMapsOwnWhoeverElseIsThere)
         std::vector<View> views;
         for (const std::uint32_t map : maps) {
             views.push_back(viewOf({map, 0, 0, 64, 64}));
-            views.back().map = {map, 0};
+            views.back().place.map = {map, 0};
         }
         Plan plan = planOf(views);
         plan.map_count = 3;

@@ -37,9 +37,9 @@ void addViews(Plan& plan)
         light.view_count = kViewsEach;
         for (std::uint32_t v = 0; v < kViewsEach; ++v) {
             views.push_back(own);
-            views.back().slice.axis = {0.0, 0.0, -1.0, 0.0};
+            views.back().serves.slice.axis = {0.0, 0.0, -1.0, 0.0};
             if (v + 1 < kViewsEach) {
-                views.back().slice.begin_m = 1e6;
+                views.back().serves.slice.begin_m = 1e6;
             }
         }
     }

@@ -16,11 +16,11 @@ using vulkan::ViewWork;
 View viewOf(MapId map, Tile tile, ContentNumber presumes, ContentNumber makes)
 {
     View view;
-    view.map = map;
-    view.tile = tile;
-    view.presumes = presumes;
-    view.makes = makes;
-    view.redraw = presumes != makes;
+    view.place.map = map;
+    view.place.tile = tile;
+    view.contents.presumes = presumes;
+    view.contents.makes = makes;
+    view.contents.redraw = presumes != makes;
     return view;
 }
 
@@ -57,28 +57,28 @@ TEST(MapNotes, aSkippedFrameIsMadeUpFor)
 {
     MapNotes contents;
     View view = viewOf({1, 0}, kTile, 0, 1);
-    view.kept_layer = 0;
-    view.kept_map = {2, 0};
-    view.kept_presumes = 0;
-    view.kept_makes = 5;
-    view.redraw_kept = true;
+    view.contents.kept_layer = 0;
+    view.contents.kept_map = {2, 0};
+    view.contents.kept_presumes = 0;
+    view.contents.kept_makes = 5;
+    view.contents.redraw_kept = true;
     EXPECT_TRUE(drawn(contents, planOf({view})).draw_kept);
-    view.presumes = 1;
-    view.makes = 2;
-    view.kept_presumes = 5;
-    view.redraw_kept = false;
-    view.dirty = {0, 0, 4, 4};
+    view.contents.presumes = 1;
+    view.contents.makes = 2;
+    view.contents.kept_presumes = 5;
+    view.contents.redraw_kept = false;
+    view.contents.dirty = {0, 0, 4, 4};
     ViewWork work = drawn(contents, planOf({view}));
     EXPECT_TRUE(work.draw);
     EXPECT_FALSE(work.whole || work.draw_kept);
-    view.presumes = 3; // 2 to 3 was planned and not recorded
-    view.makes = 4;
+    view.contents.presumes = 3; // 2 to 3 was planned and not recorded
+    view.contents.makes = 4;
     work = drawn(contents, planOf({view}));
     EXPECT_TRUE(work.whole);
     EXPECT_FALSE(work.draw_kept) << "what stands still is there";
     contents.lose(0);
-    view.makes = 6;
-    view.redraw = true;
+    view.contents.makes = 6;
+    view.contents.redraw = true;
     work = drawn(contents, planOf({view}));
     EXPECT_TRUE(work.whole && work.draw_kept);
 }
@@ -92,14 +92,14 @@ TEST(MapNotes, whatLiesUnderAnotherMapIsGone)
     EXPECT_TRUE(drawn(contents, planOf({viewOf({1, 0}, kTile, 1, 1)})).draw);
     EXPECT_FALSE(drawn(contents, planOf({viewOf({2, 0}, {1, 0, 0, 64, 64}, 2, 2)})).draw);
     View part = viewOf({4, 0}, {1, 0, 0, 64, 64}, 0, 9);
-    part.part = TexelPart::first;
+    part.place.part = TexelPart::first;
     (void)drawn(contents, planOf({part}));
     View other = part;
-    other.map = {5, 0};
-    other.part = TexelPart::second;
+    other.place.map = {5, 0};
+    other.place.part = TexelPart::second;
     (void)drawn(contents, planOf({other}));
-    part.presumes = 9;
-    part.redraw = false;
+    part.contents.presumes = 9;
+    part.contents.redraw = false;
     EXPECT_FALSE(drawn(contents, planOf({part})).draw) << "they share their texels";
 }
 
@@ -108,9 +108,9 @@ TEST(MapNotes, whatNobodyReadsIsLeftAlone)
     MapNotes contents;
     EXPECT_FALSE(drawn(contents, planOf({viewOf({1, 0}, kTile, 3, 0)})).draw);
     View by_hand; // without a name: as it says
-    by_hand.tile = kTile;
+    by_hand.place.tile = kTile;
     EXPECT_TRUE(drawn(contents, planOf({by_hand})).draw);
-    by_hand.redraw = false;
+    by_hand.contents.redraw = false;
     EXPECT_FALSE(drawn(contents, planOf({by_hand})).draw);
 }
 
@@ -124,8 +124,8 @@ protected:
                                        makeSpot({1.0, 12.0, -6.0}, {0.0, 0.0, 0.0}, 0.3)};
         bench_.setLights(spots, {{0, 0, 0, 64, 64}, {1, 0, 0, 64, 64}, {2, 0, 0, 64, 64}}, {64, 64, 3});
         for (std::uint32_t i = 0; i < 3; ++i) {
-            bench_.plan.views[i].map = {i, 0};
-            bench_.plan.views[i].makes = 100 + i;
+            bench_.plan.views[i].place.map = {i, 0};
+            bench_.plan.views[i].contents.makes = 100 + i;
         }
         bench_.plan.map_count = 3;
         all_ = bench_.plan;
@@ -150,8 +150,8 @@ protected:
         }
         for (const std::uint32_t light : lights) {
             View view = all_.views[light];
-            view.presumes = drawn_before ? view.makes : 0;
-            view.redraw = !drawn_before;
+            view.contents.presumes = drawn_before ? view.contents.makes : 0;
+            view.contents.redraw = !drawn_before;
             bench_.plan.lights[light].first_view = static_cast<std::uint32_t>(bench_.plan.views.size());
             bench_.plan.lights[light].view_count = 1;
             bench_.plan.lights[light].outcome.kind = OutcomeKind::ok;
@@ -204,8 +204,8 @@ TEST_F(Layered, aRendererMadeAnewDrawsWhatThePlanThinksIsThere)
     other.setLights(bench_.lights, {{0, 0, 0, 64, 64}, {1, 0, 0, 64, 64}, {2, 0, 0, 64, 64}}, {64, 64, 3});
     other.plan = bench_.plan;
     for (View& view : other.plan.views) {
-        view.presumes = view.makes;
-        view.redraw = false;
+        view.contents.presumes = view.contents.makes;
+        view.contents.redraw = false;
     }
     other.prepare();
     other.record(1);

@@ -23,7 +23,7 @@ public:
         }
         Plan plan = makePlan(scene_, lights, tiles, {512, 64, 1});
         if (warped) {
-            plan.views[0].orthographic = false;
+            plan.views[0].projection.orthographic = false;
         }
         const auto before = driver_.counts().pipelines;
         (void)renderer_.prepare(plan, kScreen);

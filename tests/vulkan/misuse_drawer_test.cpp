@@ -25,7 +25,7 @@ TEST(Misuse, OfTheDrawersSceneIsAnError)
     for (std::uint32_t& caster : host.plan.casters) {
         caster += 1000;
     }
-    host.plan.views[0].redraw = host.plan.views[1].redraw = true;
+    host.plan.views[0].contents.redraw = host.plan.views[1].contents.redraw = true;
     host.record();
     EXPECT_EQ(host.driver.counts().instances, before);
 }

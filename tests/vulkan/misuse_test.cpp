@@ -158,20 +158,20 @@ std::vector<std::function<void(Plan&)>> planFaults()
             [](Plan& p) { p.lights[1].mask_coloured = true; }, // but has a channel of a shared layer
             [](Plan& p) { p.lights.pop_back(); },
             [](Plan& p) { p.views[1].light = 2; },
-            [](Plan& p) { p.views[1].first_caster = kHuge; },
-            [](Plan& p) { p.views[1].caster_count = kHuge; },
-            [](Plan& p) { p.views[1].still_count = p.views[1].caster_count + 1; },
+            [](Plan& p) { p.views[1].casters.first = kHuge; },
+            [](Plan& p) { p.views[1].casters.count = kHuge; },
+            [](Plan& p) { p.views[1].casters.still = p.views[1].casters.count + 1; },
             [](Plan& p) { p.casters.clear(); },
-            [](Plan& p) { p.views[1].tile.layer = 2; },
-            [](Plan& p) { p.views[1].tile.x = 1; },
-            [](Plan& p) { p.views[1].tile.height = kHuge; },
-            [](Plan& p) { p.views[1].tile.width = 0; },
-            [](Plan& p) { p.views[1].kept_layer = 0; },
+            [](Plan& p) { p.views[1].place.tile.layer = 2; },
+            [](Plan& p) { p.views[1].place.tile.x = 1; },
+            [](Plan& p) { p.views[1].place.tile.height = kHuge; },
+            [](Plan& p) { p.views[1].place.tile.width = 0; },
+            [](Plan& p) { p.views[1].contents.kept_layer = 0; },
             [](Plan& p) {
-                p.views[1].dirty = {250, 0, 10, 10};
+                p.views[1].contents.dirty = {250, 0, 10, 10};
             },
             [](Plan& p) {
-                p.views[1].map = {kHuge - 1, 0};
+                p.views[1].place.map = {kHuge - 1, 0};
             }};
 }
 
@@ -273,7 +273,7 @@ TEST(Misuse, OfTexturesWithoutCoordinatesIsAnError)
     empty.drawer.setScene(empty.parts, {}, empty.batches);
     empty.geometry = {};
     for (View& view : empty.plan.views) {
-        view.caster_count = view.still_count = 0;
+        view.casters.count = view.casters.still = 0;
     }
     empty.begin();
 }
@@ -345,7 +345,7 @@ TEST(Misuse, OfCascadesThatWereNotFittedIsAnError)
 {
     Misuser host;
     for (View& view : host.plan.views) {
-        view.gpu_cascade = 0;
+        view.projection.gpu_cascade = 0;
     }
     host.plan.frame = 5;
     host.prepare();

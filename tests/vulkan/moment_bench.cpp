@@ -80,13 +80,13 @@ CpuMap drawDepths(const Scene& scene, const Plan& plan)
     Plan alone = plan;
     alone.pages[0].layers = static_cast<std::uint32_t>(plan.views.size());
     for (std::uint32_t v = 0; v < alone.views.size(); ++v) {
-        alone.views[v].tile = {v, 0, 0, plan.views[v].tile.width, plan.views[v].tile.height};
+        alone.views[v].place.tile = {v, 0, 0, plan.views[v].place.tile.width, plan.views[v].place.tile.height};
     }
     const DrawnMaps drawn = drawMaps(scene, alone, filter);
     CpuMap depths = drawn.layers[0];
     std::fill(depths.levels[0].begin(), depths.levels[0].end(), glm::vec4(1.0F));
     for (std::uint32_t v = 0; v < plan.views.size(); ++v) {
-        const Tile& tile = plan.views[v].tile;
+        const Tile& tile = plan.views[v].place.tile;
         for (std::uint32_t y = 0; y < tile.height; ++y) {
             const auto row = drawn.layers[v].levels[0].begin() + std::size_t{y} * depths.width;
             std::copy_n(row, tile.width, depths.levels[0].begin() + std::size_t{tile.y + y} * depths.width + tile.x);
@@ -112,7 +112,8 @@ glm::dvec4 encodeSamples(const ShadowOptions& filter, const View& view, const st
                          std::uint32_t image_layer, std::span<const double> depths)
 {
     const shared::MomentRule rule = ruleOf(filter);
-    const double near_over_far = view.orthographic ? 1.0 : view.metric.near_m / view.metric.far_m;
+    const double near_over_far =
+        view.projection.orthographic ? 1.0 : view.projection.metric.near_m / view.projection.metric.far_m;
     shared::EncodeInput input{};
     input.first = layerOf(layers, std::size_t{2} * image_layer);
     input.second = layerOf(layers, std::size_t{2} * image_layer + 1);

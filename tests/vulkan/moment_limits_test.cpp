@@ -130,7 +130,7 @@ TEST(MomentsAtRest, takeNoShaderAtAll)
         (void)renderer.prepare(plan, {8, 8});
         for (const bool redraw : {true, false}) {
             for (View& view : plan.views) {
-                view.redraw = redraw;
+                view.contents.redraw = redraw;
             }
             gpu().run([&](VkCommandBuffer commands) {
                 profiler.beginFrame(commands, 0);

@@ -60,7 +60,7 @@ TEST_P(MomentMaps, encodeTheDepthsOfTheirTexels)
     ASSERT_EQ(drawn.layers.size(), imageLayersPerMap(filter.technique.filter, filter.moments));
     for (std::uint32_t v = 0; v < plan.views.size(); ++v) {
         const View& view = plan.views[v];
-        const Tile& tile = view.tile;
+        const Tile& tile = view.place.tile;
         for (std::uint32_t layer = 0; layer < drawn.layers.size(); ++layer) {
             std::size_t wrong = 0;
             std::size_t casters = 0;
@@ -119,15 +119,16 @@ INSTANTIATE_TEST_SUITE_P(Filters, MomentMaps,
 // Where a point of the map, in texels, meets the scene first, in the view's metric.
 double tracedDepth(const Scene& scene, const View& view, double x, double y)
 {
-    const glm::dmat4 world_from_clip = glm::inverse(view.clip_from_world);
-    const glm::dvec2 ndc((x - view.tile.x) / view.tile.width * 2.0 - 1.0,
-                         (y - view.tile.y) / view.tile.height * 2.0 - 1.0);
+    const glm::dmat4 world_from_clip = glm::inverse(view.projection.clip_from_world);
+    const glm::dvec2 ndc((x - view.place.tile.x) / view.place.tile.width * 2.0 - 1.0,
+                         (y - view.place.tile.y) / view.place.tile.height * 2.0 - 1.0);
     const glm::dvec4 near = world_from_clip * glm::dvec4(ndc, 0.0, 1.0);
     const glm::dvec4 far = world_from_clip * glm::dvec4(ndc, 1.0, 1.0);
     const glm::dvec3 a = glm::dvec3(near) / near.w;
     const glm::dvec3 direction = glm::normalize(glm::dvec3(far) / far.w - a);
     const auto hit = scene.trace(a, direction);
-    return hit ? std::min(glm::dot(view.metric.metric_ws, glm::dvec4(a + direction * hit->t, 1.0)), 1.0) : 1.0;
+    return hit ? std::min(glm::dot(view.projection.metric.metric_ws, glm::dvec4(a + direction * hit->t, 1.0)), 1.0)
+               : 1.0;
 }
 
 // Four samples are averaged as moments. Their places are the standard ones of Vulkan 1.3, chapter "Multisampling".
@@ -142,7 +143,7 @@ TEST(MomentSamples, areAveragedAsMoments)
     filter.moments.samples = 4;
     const DrawnMaps drawn = drawMaps(scene, plan, filter);
     for (const View& view : plan.views) {
-        const Tile& tile = view.tile;
+        const Tile& tile = view.place.tile;
         std::size_t edges = 0;
         std::size_t wrong = 0;
         for (std::uint32_t y = 1; y + 1 < tile.height; ++y) {
@@ -154,13 +155,15 @@ TEST(MomentSamples, areAveragedAsMoments)
                 const glm::dvec4 expected = encodeSamples(filter, view, {}, 0, depths);
                 const glm::vec4 stored =
                     drawn.layers[0].levels[0][std::size_t{tile.y + y} * drawn.layers[0].width + tile.x + x];
-                wrong += differs(stored, expected, formatOf(filter), view.orthographic ? 3e-5 : 3e-3) ? 1 : 0;
+                wrong +=
+                    differs(stored, expected, formatOf(filter), view.projection.orthographic ? 3e-5 : 3e-3) ? 1 : 0;
                 // Where moments and the square of a mean depth are far apart.
                 edges += expected.y - expected.x * expected.x > 1e-3 ? 1 : 0;
             }
         }
         EXPECT_GT(edges, 50U) << "without edges this says nothing";
-        EXPECT_LE(wrong, tile.width * tile.height / (view.orthographic ? 200 : 40)) << "light " << view.light;
+        EXPECT_LE(wrong, tile.width * tile.height / (view.projection.orthographic ? 200 : 40))
+            << "light " << view.light;
     }
 }
 
@@ -173,7 +176,7 @@ TEST(MomentDerivatives, addTheSmallerStepsOfBothAxes)
     const DrawnMaps without = drawMaps(scene, plan, filter);
     filter.moments.derivative_variance = true;
     const DrawnMaps with = drawMaps(scene, plan, filter);
-    const Tile& tile = plan.views[0].tile;
+    const Tile& tile = plan.views[0].place.tile;
     std::size_t wrong = 0;
     double largest = 0.0;
     for (std::uint32_t y = 1; y + 1 < tile.height; ++y) {
@@ -199,13 +202,13 @@ TEST(MomentGuard, depthsThatAreNoNumbersAreNotStored)
 {
     const Scene scene = makeScene();
     Plan plan = momentPlan(scene);
-    plan.views[1].metric.metric_ws.x = std::numeric_limits<double>::quiet_NaN();
+    plan.views[1].projection.metric.metric_ws.x = std::numeric_limits<double>::quiet_NaN();
     for (const std::uint32_t samples : {1U, 4U}) {
         ShadowOptions filter = momentFilter(Filter::evsm, MapFormat::rgba32f);
         filter.moments.samples = samples;
         const DrawnMaps drawn = drawMaps(scene, plan, filter);
         std::size_t bad = 0;
-        const Tile& tile = plan.views[1].tile;
+        const Tile& tile = plan.views[1].place.tile;
         for (std::uint32_t y = tile.y; y < tile.y + tile.height; ++y) {
             for (std::uint32_t x = tile.x; x < tile.x + tile.width; ++x) {
                 const glm::vec4& texel = drawn.layers[0].levels[0][std::size_t{y} * drawn.layers[0].width + x];

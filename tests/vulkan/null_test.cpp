@@ -115,7 +115,7 @@ TEST(NullRecording, viewsThatHoldAreNotDrawn)
 {
     NullDriver driver;
     NullHost host(driver);
-    host.plan.views[1].redraw = false;
+    host.plan.views[1].contents.redraw = false;
     (void)host.renderer.prepare(host.plan, kScreen);
     host.record(0);
     EXPECT_EQ(host.passes().size(), 3U) << "new images hold nothing yet, so everything is drawn";
@@ -124,7 +124,7 @@ TEST(NullRecording, viewsThatHoldAreNotDrawn)
     EXPECT_EQ(host.passes().size(), 2U);
     EXPECT_EQ(host.count(Kind::barrier), 4U) << "the layer that holds is left alone";
     driver.clearEvents();
-    host.plan.views[0].redraw = false;
+    host.plan.views[0].contents.redraw = false;
     host.record(0);
     EXPECT_EQ(host.passes().size(), 1U);
     EXPECT_EQ(host.count(Kind::barrier), 2U);
@@ -185,7 +185,7 @@ TEST(NullRecording, filterableMapsThatHoldAreNeitherDrawnNorFiltered)
         EXPECT_EQ(driver.counts().created, counts.created);
         EXPECT_EQ(driver.counts().descriptor_updates, counts.descriptor_updates);
         for (View& view : plan.views) {
-            view.redraw = false;
+            view.contents.redraw = false;
         }
         driver.clearEvents();
         renderer.recordMaps(driver.commands(), 0, plan, nothing);

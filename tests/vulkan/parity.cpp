@@ -54,11 +54,11 @@ void setSteppingSun(bool band, bool share_texels, Rendered& r)
         const bool second = position == SunPosition::later;
         View view = makeView(r.scene, makeSun(second ? later : earlier), 0,
                              {second && !share_texels ? 1U : 0U, 0, 0, 512, 512});
-        view.sun = position;
+        view.serves.sun = position;
         if (share_texels) {
-            view.part = second ? TexelPart::second : TexelPart::first;
+            view.place.part = second ? TexelPart::second : TexelPart::first;
         }
-        view.caster_count = static_cast<std::uint32_t>(r.plan.casters.size());
+        view.casters.count = static_cast<std::uint32_t>(r.plan.casters.size());
         r.plan.views.push_back(view);
     }
     LightPlan& light = r.plan.lights[0];
@@ -96,8 +96,8 @@ void setPoint(Rendered& r)
         const auto row = [&](int i) {
             return glm::dvec4(axes[i], -glm::dot(axes[i], lamp.position_ws));
         };
-        view.sector = {row(1), row(2), row(0)};
-        view.caster_count = static_cast<std::uint32_t>(r.plan.casters.size());
+        view.serves.sector = {row(1), row(2), row(0)};
+        view.casters.count = static_cast<std::uint32_t>(r.plan.casters.size());
         r.plan.views.push_back(view);
     }
     r.plan.lights[0].view_count = 6;
@@ -115,22 +115,22 @@ void setParaboloid(Rendered& r)
     for (const double sign : {1.0, -1.0}) {
         const std::uint32_t at = views.empty() ? 0 : kSide;
         View view;
-        view.tile = {0, at, 0, kSide, kSide};
-        view.sector.w = {0.0, sign, 0.0, -sign * lamp.y};
-        view.parallel = false;
-        view.orthographic = false;
-        view.clamp_near = false;
-        view.paraboloid = true;
-        view.light_place_ws = lamp;
-        view.texel_m = 4.0 / kSide;
-        view.metric = {{0.0, 0.0, 0.0, -kNear_m / (kFar_m - kNear_m)}, kNear_m, kFar_m};
+        view.place.tile = {0, at, 0, kSide, kSide};
+        view.serves.sector.w = {0.0, sign, 0.0, -sign * lamp.y};
+        view.projection.parallel = false;
+        view.projection.orthographic = false;
+        view.projection.clamp_near = false;
+        view.projection.paraboloid = true;
+        view.projection.light_place_ws = lamp;
+        view.projection.texel_m = 4.0 / kSide;
+        view.projection.metric = {{0.0, 0.0, 0.0, -kNear_m / (kFar_m - kNear_m)}, kNear_m, kFar_m};
         const glm::dvec3 axes[] = {{-sign, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, sign, 0.0}};
         for (int i = 0; i < 3; ++i) {
-            view.clip_from_world =
-                glm::row(view.clip_from_world, i, glm::dvec4(axes[i], -glm::dot(axes[i], lamp)) / (kFar_m - kNear_m));
+            view.projection.clip_from_world = glm::row(
+                view.projection.clip_from_world, i, glm::dvec4(axes[i], -glm::dot(axes[i], lamp)) / (kFar_m - kNear_m));
         }
-        view.clip_from_world[3][3] = kSide / (kSide - 2.0 * 8.0); // a border of 8 texels
-        view.caster_count = static_cast<std::uint32_t>(r.plan.casters.size());
+        view.projection.clip_from_world[3][3] = kSide / (kSide - 2.0 * 8.0); // a border of 8 texels
+        view.casters.count = static_cast<std::uint32_t>(r.plan.casters.size());
         views.push_back(view);
     }
     r.plan.views = views;

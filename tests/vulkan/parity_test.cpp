@@ -150,7 +150,7 @@ TEST(ParityOfPoints, maskIsThatOfTheCpu)
         expectParity(r, options, name);
         // The reference can tell views that are swapped.
         Plan other = r.plan;
-        std::swap(other.views[2].sector, other.views[3].sector);
+        std::swap(other.views[2].serves.sector, other.views[3].serves.sector);
         const std::vector<double> wrong = referenceMask({r.picture, r.camera, r.lights, other, r.maps}, 0, options, {});
         std::size_t off = 0;
         for (std::size_t i = 0; i < wrong.size(); ++i) {
@@ -179,7 +179,7 @@ TEST(ParityOfParaboloids, maskIsThatOfTheCpu)
         expectParity(r, options, name);
         // The reference can tell views that are swapped.
         Plan other = r.plan;
-        std::swap(other.views[0].sector, other.views[1].sector);
+        std::swap(other.views[0].serves.sector, other.views[1].serves.sector);
         const std::vector<double> wrong = referenceMask({r.picture, r.camera, r.lights, other, r.maps}, 0, options, {});
         std::size_t off = 0;
         for (std::size_t i = 0; i < wrong.size(); ++i) {
@@ -198,15 +198,16 @@ TEST(MapsOfParaboloids, holdExactDistancesWithinBentEdges)
     options.technique.filter = Filter::hard;
     const Rendered r = renderParity(options, ParityLights::paraboloid);
     for (const View& view : r.plan.views) {
-        const glm::dvec2 half = 0.5 * glm::dvec2(view.tile.width, view.tile.height);
-        const glm::dmat4 rows = glm::transpose(view.clip_from_world);
+        const glm::dvec2 half = 0.5 * glm::dvec2(view.place.tile.width, view.place.tile.height);
+        const glm::dmat4 rows = glm::transpose(view.projection.clip_from_world);
         std::size_t ground = 0;
         std::size_t exact = 0;
         std::size_t seen = 0;
         std::size_t other = 0;
-        for (std::uint32_t y = 0; y < view.tile.height; ++y) {
-            for (std::uint32_t x = 0; x < view.tile.width; ++x) {
-                const glm::dvec2 place = (glm::dvec2(x + 0.5, y + 0.5) / half - 1.0) * view.clip_from_world[3][3];
+        for (std::uint32_t y = 0; y < view.place.tile.height; ++y) {
+            for (std::uint32_t x = 0; x < view.place.tile.width; ++x) {
+                const glm::dvec2 place =
+                    (glm::dvec2(x + 0.5, y + 0.5) / half - 1.0) * view.projection.clip_from_world[3][3];
                 const double r2 = glm::dot(place, place);
                 if (r2 > 0.36) { // beyond 0.64 the ground's own straight edges pass
                     continue;
@@ -214,9 +215,10 @@ TEST(MapsOfParaboloids, holdExactDistancesWithinBentEdges)
                 const glm::dvec3 d = glm::dvec3(2.0 * place, 1.0 - r2) / (1.0 + r2);
                 const glm::dvec3 ray =
                     glm::normalize(glm::dvec3(rows[0]) * d.x + glm::dvec3(rows[1]) * d.y + glm::dvec3(rows[2]) * d.z);
-                const auto hit = r.scene.trace(view.light_place_ws, ray);
-                const double expected = hit ? std::min(depthOnMap(view, view.light_place_ws + ray * hit->t), 1.0) : 1.0;
-                const double stored = r.maps[view.tile.layer].depth(view.tile.x + x, view.tile.y + y);
+                const auto hit = r.scene.trace(view.projection.light_place_ws, ray);
+                const double expected =
+                    hit ? std::min(depthOnMap(view, view.projection.light_place_ws + ray * hit->t), 1.0) : 1.0;
+                const double stored = r.maps[view.place.tile.layer].depth(view.place.tile.x + x, view.place.tile.y + y);
                 const bool is_exact = std::abs(stored - expected) < 2e-5;
                 ground += hit && hit->object == 0 ? 1 : 0;
                 exact += hit && hit->object == 0 && is_exact ? 1 : 0;
@@ -224,7 +226,7 @@ TEST(MapsOfParaboloids, holdExactDistancesWithinBentEdges)
                 other += is_exact ? 0 : 1;
             }
         }
-        const bool below = view.sector.w.y < 0.0;
+        const bool below = view.serves.sector.w.y < 0.0;
         EXPECT_EQ(ground > 0, below);
         EXPECT_GE(exact, ground * 97 / 100);
         EXPECT_LE(other, seen / 20) << "edges of boxes";
@@ -277,7 +279,7 @@ TEST(ParityOfStepsItself, tellsAnotherBlendApart)
     other.lights[0].steps.share += 0.1;
     EXPECT_GT(countOff(other), r.picture.depth.size() / 1000);
     other = r.plan;
-    std::swap(other.views[0].part, other.views[1].part);
+    std::swap(other.views[0].place.part, other.views[1].place.part);
     EXPECT_GT(countOff(other), r.picture.depth.size() / 1000);
     expectSilence(gpu());
 }
@@ -297,9 +299,9 @@ TEST(ParityOfBias, manualRulesAreThoseOfTheCpu)
 // The depth that the first surface along a texel's ray has.
 double expectedDepth(const Scene& scene, const View& view, double x, double y)
 {
-    const glm::dmat4 world_from_clip = glm::inverse(view.clip_from_world);
-    const glm::dvec2 ndc((x - view.tile.x) / view.tile.width * 2.0 - 1.0,
-                         (y - view.tile.y) / view.tile.height * 2.0 - 1.0);
+    const glm::dmat4 world_from_clip = glm::inverse(view.projection.clip_from_world);
+    const glm::dvec2 ndc((x - view.place.tile.x) / view.place.tile.width * 2.0 - 1.0,
+                         (y - view.place.tile.y) / view.place.tile.height * 2.0 - 1.0);
     const glm::dvec4 near = world_from_clip * glm::dvec4(ndc, 0.0, 1.0);
     const glm::dvec4 far = world_from_clip * glm::dvec4(ndc, 1.0, 1.0);
     const glm::dvec3 a = glm::dvec3(near) / near.w;
@@ -309,7 +311,7 @@ double expectedDepth(const Scene& scene, const View& view, double x, double y)
         return 1.0;
     }
     const glm::dvec3 p = a + glm::normalize(b - a) * hit->t;
-    return std::min(glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0)), 1.0);
+    return std::min(glm::dot(view.projection.metric.metric_ws, glm::dvec4(p, 1.0)), 1.0);
 }
 
 class MapNotes : public testing::TestWithParam<MapFormat> {};
@@ -322,17 +324,18 @@ TEST_P(MapNotes, areTheDepthMetric)
     const Rendered r = renderParity(options);
     const double tolerance = GetParam() == MapFormat::d16 ? 3e-5 : 1e-5;
     for (const View& view : r.plan.views) {
-        const CpuMap& map = r.maps[view.tile.layer];
+        const CpuMap& map = r.maps[view.place.tile.layer];
         std::size_t wrong = 0;
-        for (std::uint32_t y = 0; y < view.tile.height; ++y) {
-            for (std::uint32_t x = 0; x < view.tile.width; ++x) {
-                const double expected = expectedDepth(r.scene, view, view.tile.x + x + 0.5, view.tile.y + y + 0.5);
-                const double stored = map.depth(view.tile.x + x, view.tile.y + y);
+        for (std::uint32_t y = 0; y < view.place.tile.height; ++y) {
+            for (std::uint32_t x = 0; x < view.place.tile.width; ++x) {
+                const double expected =
+                    expectedDepth(r.scene, view, view.place.tile.x + x + 0.5, view.place.tile.y + y + 0.5);
+                const double stored = map.depth(view.place.tile.x + x, view.place.tile.y + y);
                 wrong += std::abs(stored - expected) > tolerance ? 1 : 0;
             }
         }
         // Texels whose centre is within rounding of an edge may go either way.
-        EXPECT_LE(wrong, view.tile.width * view.tile.height / 200) << "light " << view.light;
+        EXPECT_LE(wrong, view.place.tile.width * view.place.tile.height / 200) << "light " << view.light;
     }
     expectSilence(gpu());
 }

@@ -35,11 +35,12 @@ inline ShadowOptions lvsm(LayerPlacement placement, std::uint32_t layers)
 inline View viewOf(const Tile& tile, const glm::dvec3& direction_ws = {0.0, -1.0, 0.0}, double backed_out_m = 0.0)
 {
     View view;
-    view.tile = tile;
-    view.light_place_ws = -direction_ws * (100.0 + backed_out_m);
-    view.metric.near_m = 0.0;
-    view.metric.far_m = 100.0;
-    view.metric.metric_ws = glm::dvec4(direction_ws, -glm::dot(direction_ws, view.light_place_ws)) / 100.0;
+    view.place.tile = tile;
+    view.projection.light_place_ws = -direction_ws * (100.0 + backed_out_m);
+    view.projection.metric.near_m = 0.0;
+    view.projection.metric.far_m = 100.0;
+    view.projection.metric.metric_ws =
+        glm::dvec4(direction_ws, -glm::dot(direction_ws, view.projection.light_place_ws)) / 100.0;
     return view;
 }
 

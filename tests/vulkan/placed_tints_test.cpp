@@ -38,8 +38,8 @@ protected:
 TEST_F(PlacedTints, ViewsWithBlendedCastersHaveTheLayerOfTheirMap)
 {
     const std::uint32_t blended = plan_.casters.at(0);
-    plan_.views[1].caster_count = 0; // the sun's map alone has it
-    plan_.views[1].still_count = 0;
+    plan_.views[1].casters.count = 0; // the sun's map alone has it
+    plan_.views[1].casters.still = 0;
     vulkan::ShadowRenderer renderer(driver_.view(), {.is_blended = [&](std::uint32_t one) {
                                         return one == blended;
                                     }});

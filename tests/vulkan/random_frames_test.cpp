@@ -32,11 +32,11 @@ std::ostream& operator<<(std::ostream& out, const FramesCase& c)
 Plan fromScratch(Plan plan)
 {
     for (View& view : plan.views) {
-        view.redraw = view.makes != 0;
-        view.map = {};
-        view.kept_map = {};
-        view.kept_layer = kNoIndex;
-        view.redraw_kept = false;
+        view.contents.redraw = view.contents.makes != 0;
+        view.place.map = {};
+        view.contents.kept_map = {};
+        view.contents.kept_layer = kNoIndex;
+        view.contents.redraw_kept = false;
     }
     return plan;
 }
@@ -118,10 +118,10 @@ protected:
         const std::size_t bytes = texelBytes(a.format);
         std::size_t count = 0;
         for (const View& view : plan.views) {
-            if (view.makes == 0) {
+            if (view.contents.makes == 0) {
                 continue;
             }
-            const Tile& tile = view.tile;
+            const Tile& tile = view.place.tile;
             const auto x = gpu().read(a, tile.layer, texelBytes(a.format), aspect);
             const auto y = gpu().read(b, tile.layer, texelBytes(b.format), aspect);
             for (std::size_t row = tile.y; row < tile.y + tile.height; ++row) {

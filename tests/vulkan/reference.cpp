@@ -57,13 +57,15 @@ glm::dvec4 rowOf(const glm::dmat4& m, int i)
 MapRows rowsOf(const View& view)
 {
     MapRows rows;
-    const glm::dvec4 w = rowOf(view.clip_from_world, 3);
-    rows.x = 0.5 * view.tile.width * (rowOf(view.clip_from_world, 0) + w) + double(view.tile.x) * w;
-    rows.y = 0.5 * view.tile.height * (rowOf(view.clip_from_world, 1) + w) + double(view.tile.y) * w;
+    const glm::dvec4 w = rowOf(view.projection.clip_from_world, 3);
+    rows.x =
+        0.5 * view.place.tile.width * (rowOf(view.projection.clip_from_world, 0) + w) + double(view.place.tile.x) * w;
+    rows.y =
+        0.5 * view.place.tile.height * (rowOf(view.projection.clip_from_world, 1) + w) + double(view.place.tile.y) * w;
     rows.w = w;
-    rows.metric = view.metric.metric_ws;
-    rows.texel_m = view.texel_m;
-    rows.range_m = view.metric.far_m - view.metric.near_m;
+    rows.metric = view.projection.metric.metric_ws;
+    rows.texel_m = view.projection.texel_m;
+    rows.range_m = view.projection.metric.far_m - view.projection.metric.near_m;
     return rows;
 }
 
@@ -71,15 +73,15 @@ MapRows rowsOf(const View& view)
 MapRows rowsAt(const View& view, const glm::dvec3& p)
 {
     MapRows rows = rowsOf(view);
-    if (!view.paraboloid) {
+    if (!view.projection.paraboloid) {
         return rows;
     }
     const auto texel = [&](const glm::dvec3& at) {
         const glm::dvec2 place = placeOnMap(view, at).value_or(glm::dvec2(0.0));
-        return glm::dvec2(view.tile.x, view.tile.y) +
-               (place * 0.5 + 0.5) * glm::dvec2(view.tile.width, view.tile.height);
+        return glm::dvec2(view.place.tile.x, view.place.tile.y) +
+               (place * 0.5 + 0.5) * glm::dvec2(view.place.tile.width, view.place.tile.height);
     };
-    const glm::dvec3 ray = p - view.light_place_ws;
+    const glm::dvec3 ray = p - view.projection.light_place_ws;
     const double distance = glm::length(ray);
     const double h = 1e-4 * distance;
     glm::dvec3 across(0.0);
@@ -92,11 +94,11 @@ MapRows rowsAt(const View& view, const glm::dvec3& p)
         down[axis] = slope.y;
     }
     const glm::dvec2 here = texel(p);
-    rows.w = glm::dvec4(ray / distance, -glm::dot(ray / distance, view.light_place_ws));
+    rows.w = glm::dvec4(ray / distance, -glm::dot(ray / distance, view.projection.light_place_ws));
     rows.x = glm::dvec4(across, -glm::dot(across, p)) + rows.w * here.x;
     rows.y = glm::dvec4(down, -glm::dot(down, p)) + rows.w * here.y;
     rows.metric = rows.w / rows.range_m;
-    rows.metric.w -= view.metric.near_m / rows.range_m;
+    rows.metric.w -= view.projection.metric.near_m / rows.range_m;
     return rows;
 }
 
@@ -218,8 +220,8 @@ shared::MomentRule momentsOf(const ShadowOptions& options)
 FilterInput inputOf(const ReferenceScene& scene, const View& view, const ShadowOptions& options)
 {
     FilterInput input{};
-    input.layer = view.tile.layer;
-    input.part = view.part == TexelPart::second ? 1.0 : 0.0;
+    input.layer = view.place.tile.layer;
+    input.part = view.place.part == TexelPart::second ? 1.0 : 0.0;
     input.kernel_width = widthOf(options.pcf.kernel);
     input.disc_taps = int(options.pcf.taps);
     input.disc_radius = options.pcf.radius_texels;
@@ -237,11 +239,13 @@ FilterInput inputOf(const ReferenceScene& scene, const View& view, const ShadowO
                         options.ids.depth == IdDepth::global ? -steps : steps};
     }
     input.moments = momentsOf(options);
-    input.tile = glm::dvec4(view.tile.x, view.tile.y, view.tile.x + view.tile.width, view.tile.y + view.tile.height);
+    input.tile = glm::dvec4(view.place.tile.x, view.place.tile.y, view.place.tile.x + view.place.tile.width,
+                            view.place.tile.y + view.place.tile.height);
     const MapPages& pages = scene.plan.pages[0];
     input.coarsest = comparesInCone(options) ? std::bit_width(std::max(pages.width, pages.height) - 1U)
-                                             : coarsestOf(view.tile, levelsOf(options, pages));
-    input.near_over_far = view.orthographic ? 1.0 : view.metric.near_m / view.metric.far_m;
+                                             : coarsestOf(view.place.tile, levelsOf(options, pages));
+    input.near_over_far =
+        view.projection.orthographic ? 1.0 : view.projection.metric.near_m / view.projection.metric.far_m;
     return input;
 }
 
@@ -321,12 +325,12 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
         std::ranges::transform(scene.maps, std::back_inserter(current_blocks), blocksOf);
     }
     if (hasSmoothies(options)) {
-        smoothies_tile = view.tile;
+        smoothies_tile = view.place.tile;
         const int reach = int(options.smoothies.reach_texels);
         const double quantum = quantumOf(formatOf(options));
         current_smoothies = options.technique.filter == Filter::smoothies
-                                ? finsOf(*scene.scene, view, mapOf(view.tile.layer), reach, quantum)
-                                : smoothiesOf(mapOf(view.tile.layer), view.tile, reach, quantum);
+                                ? finsOf(*scene.scene, view, mapOf(view.place.tile.layer), reach, quantum)
+                                : smoothiesOf(mapOf(view.place.tile.layer), view.place.tile, reach, quantum);
     }
     const Picture& picture = scene.picture;
     MapRows rows = rowsOf(view);
@@ -347,10 +351,10 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
         } else {
             rows = rowsAt(view, p);
             const double w = shared::dotRow(rows.w, p);
-            const double x = shared::dotRow(rows.x, p) / w - view.tile.x;
-            const double y = shared::dotRow(rows.y, p) / w - view.tile.y;
-            if (w <= 0.0 || x < margin || y < margin || x > view.tile.width - margin || y > view.tile.height - margin ||
-                !view.sector.holds(p)) {
+            const double x = shared::dotRow(rows.x, p) / w - view.place.tile.x;
+            const double y = shared::dotRow(rows.y, p) / w - view.place.tile.y;
+            if (w <= 0.0 || x < margin || y < margin || x > view.place.tile.width - margin ||
+                y > view.place.tile.height - margin || !view.serves.sector.holds(p)) {
                 mask.push_back(kElsewhere);
                 continue;
             }

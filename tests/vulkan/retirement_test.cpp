@@ -92,13 +92,13 @@ private:
         }
         plan_ = test::makePlan(scene, lights_, tiles, {map_size, map_size, lights, kept}, options);
         for (std::uint32_t i = 0; i < std::min(lights, kept); ++i) {
-            plan_.views[i].kept_layer = i;
-            plan_.views[i].still_count = 2;
-            plan_.views[i].redraw_kept = frame_ % 3 == 0;
-            plan_.views[i].dirty = {0, 0, 16, 16};
+            plan_.views[i].contents.kept_layer = i;
+            plan_.views[i].casters.still = 2;
+            plan_.views[i].contents.redraw_kept = frame_ % 3 == 0;
+            plan_.views[i].contents.dirty = {0, 0, 16, 16};
         }
         if (cascades_) {
-            plan_.views[0].gpu_cascade = 0;
+            plan_.views[0].projection.gpu_cascade = 0;
             ShadowOptions one = options;
             one.technique.partition = Partition::sdsm;
             one.cascades.count = 1;

@@ -286,31 +286,33 @@ View makeView(const Scene& scene, const Light& light, std::uint32_t index, Tile 
     const glm::dvec3 up = anyPerpendicular(axis);
     View view;
     view.light = index;
-    view.tile = tile;
+    view.place.tile = tile;
     glm::dmat4 clip_from_view;
     glm::dvec3 origin;
     if (light.type == LightType::directional) {
         const double radius = 12.0; // less than the ground: its rim stays outside, and reads lit
         origin = -axis * 40.0;
-        view.metric.near_m = 25.0;
-        view.metric.far_m = 40.0 + scene.ground_half;
-        clip_from_view = glm::orthoRH_ZO(-radius, radius, -radius, radius, view.metric.near_m, view.metric.far_m);
-        view.texel_m = 2.0 * radius / tile.width;
+        view.projection.metric.near_m = 25.0;
+        view.projection.metric.far_m = 40.0 + scene.ground_half;
+        clip_from_view = glm::orthoRH_ZO(-radius, radius, -radius, radius, view.projection.metric.near_m,
+                                         view.projection.metric.far_m);
+        view.projection.texel_m = 2.0 * radius / tile.width;
     } else {
         origin = light.position_ws;
-        view.metric.near_m = 0.2;
-        view.metric.far_m = 40.0;
-        clip_from_view =
-            glm::perspectiveRH_ZO(2.0 * light.outer_half_angle_rad, 1.0, view.metric.near_m, view.metric.far_m);
-        view.texel_m = 2.0 * std::tan(light.outer_half_angle_rad) / tile.width;
-        view.orthographic = false;
-        view.parallel = false;
-        view.clamp_near = false;
+        view.projection.metric.near_m = 0.2;
+        view.projection.metric.far_m = 40.0;
+        clip_from_view = glm::perspectiveRH_ZO(2.0 * light.outer_half_angle_rad, 1.0, view.projection.metric.near_m,
+                                               view.projection.metric.far_m);
+        view.projection.texel_m = 2.0 * std::tan(light.outer_half_angle_rad) / tile.width;
+        view.projection.orthographic = false;
+        view.projection.parallel = false;
+        view.projection.clamp_near = false;
     }
     clip_from_view[1][1] = -clip_from_view[1][1];
-    view.clip_from_world = clip_from_view * glm::lookAtRH(origin, origin + axis, up);
-    const double range = view.metric.far_m - view.metric.near_m;
-    view.metric.metric_ws = glm::dvec4(axis, -glm::dot(axis, origin) - view.metric.near_m) / range;
+    view.projection.clip_from_world = clip_from_view * glm::lookAtRH(origin, origin + axis, up);
+    const double range = view.projection.metric.far_m - view.projection.metric.near_m;
+    view.projection.metric.metric_ws =
+        glm::dvec4(axis, -glm::dot(axis, origin) - view.projection.metric.near_m) / range;
     return view;
 }
 
@@ -333,7 +335,7 @@ Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const
     }
     for (std::uint32_t i = 0; i < lights.size(); ++i) {
         View view = makeView(scene, lights[i], i, tiles[i]);
-        view.caster_count = static_cast<std::uint32_t>(plan.casters.size());
+        view.casters.count = static_cast<std::uint32_t>(plan.casters.size());
         plan.views.push_back(view);
         plan.lights.push_back({i, 1, i / 4, i % 4, {}});
     }
@@ -350,16 +352,16 @@ void MapNames::name(Plan& plan)
         Contents& held = contents_[i];
         const bool known = held.map != 0;
         held.map = known ? held.map : ++last;
-        view.map = {2 * i, 0};
-        view.presumes = known || !view.redraw ? held.map : 0;
-        held.map = view.redraw ? ++last : held.map;
-        view.makes = held.map;
-        if (view.kept_layer != kNoIndex) {
+        view.place.map = {2 * i, 0};
+        view.contents.presumes = known || !view.contents.redraw ? held.map : 0;
+        held.map = view.contents.redraw ? ++last : held.map;
+        view.contents.makes = held.map;
+        if (view.contents.kept_layer != kNoIndex) {
             held.kept = held.kept != 0 ? held.kept : ++last;
-            view.kept_map = {2 * i + 1, 0};
-            view.kept_presumes = held.kept;
-            held.kept = view.redraw_kept ? ++last : held.kept;
-            view.kept_makes = held.kept;
+            view.contents.kept_map = {2 * i + 1, 0};
+            view.contents.kept_presumes = held.kept;
+            held.kept = view.contents.redraw_kept ? ++last : held.kept;
+            view.contents.kept_makes = held.kept;
         }
     }
 }

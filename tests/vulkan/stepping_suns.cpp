@@ -40,24 +40,24 @@ void addViews(const Setting& setting, const Scene& scene, const Camera& camera, 
         const std::uint32_t layer = second ? plan.pages[0].layers - count + i : plan.pages[0].layers;
         View view = makeView(scene, makeSun(direction), light, {layer, 0, 0, kMapSize, kMapSize});
         plan.pages[0].layers += second ? 0 : 1;
-        view.sun = position;
+        view.serves.sun = position;
         if (setting.paired_texels) {
-            view.part = second ? TexelPart::second : TexelPart::first;
+            view.place.part = second ? TexelPart::second : TexelPart::first;
         }
         if (count == 2) {
             // A different size, so that the slices can be told apart.
             if (i == 1) {
-                view.clip_from_world =
-                    glm::dmat4(0.7, 0, 0, 0, 0, 0.7, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1) * view.clip_from_world;
-                view.texel_m /= 0.7;
+                view.projection.clip_from_world =
+                    glm::dmat4(0.7, 0, 0, 0, 0, 0.7, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1) * view.projection.clip_from_world;
+                view.projection.texel_m /= 0.7;
             }
             const glm::dvec3 axis = glm::normalize(-camera.eye_ws);
-            view.slice.axis = glm::dvec4(axis, -glm::dot(axis, camera.eye_ws));
-            view.slice.begin_m = i == 0 ? -1e9 : 12.0;
-            view.slice.end_m = i == 0 ? 15.0 : 1e9;
-            view.slice.blend_m = i == 0 ? 0.0 : 3.0;
+            view.serves.slice.axis = glm::dvec4(axis, -glm::dot(axis, camera.eye_ws));
+            view.serves.slice.begin_m = i == 0 ? -1e9 : 12.0;
+            view.serves.slice.end_m = i == 0 ? 15.0 : 1e9;
+            view.serves.slice.blend_m = i == 0 ? 0.0 : 3.0;
         }
-        view.caster_count = static_cast<std::uint32_t>(plan.casters.size());
+        view.casters.count = static_cast<std::uint32_t>(plan.casters.size());
         plan.views.push_back(view);
         ++plan.lights[light].view_count;
     }
@@ -114,7 +114,7 @@ std::vector<Mask> Suns::maskOf(SunPosition position)
         addViews(setting, bench.scene, bench.camera, directionOf(i, position), SunPosition::only, i, plan);
         if (setting.paired_texels) {
             for (View& view : plan.views) {
-                view.part = TexelPart::whole;
+                view.place.part = TexelPart::whole;
             }
         }
     }

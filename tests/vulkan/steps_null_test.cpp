@@ -24,9 +24,9 @@ public:
         const std::vector<Tile> tiles{{0, 0, 0, 256, 256}};
         plan = makePlan(scene, lights, tiles, {256, 256, 2}, optionsOf(filter, format));
         View later = makeView(scene, makeSun({0.4, -1.0, 0.3}), 0, {1, 0, 0, 256, 256});
-        later.caster_count = plan.views[0].caster_count;
-        later.sun = SunPosition::later;
-        plan.views[0].sun = SunPosition::earlier;
+        later.casters.count = plan.views[0].casters.count;
+        later.serves.sun = SunPosition::later;
+        plan.views[0].serves.sun = SunPosition::earlier;
         plan.views.push_back(later);
         plan.lights[0].view_count = 2;
         SunSteps& steps = plan.lights[0].steps;
@@ -43,9 +43,9 @@ public:
     {
         plan.pages[0].kept_layers = 2;
         for (std::uint32_t i = 0; i < 2; ++i) {
-            plan.views[i].kept_layer = i;
-            plan.views[i].still_count = 3;
-            plan.views[i].dirty = {16, 32, 64, 48};
+            plan.views[i].contents.kept_layer = i;
+            plan.views[i].casters.still = 3;
+            plan.views[i].contents.dirty = {16, 32, 64, 48};
         }
     }
     void record(std::uint32_t slot)
@@ -99,7 +99,7 @@ TEST(NullSteps, onlyWhatIsDirtyIsDrawnAgain)
         EXPECT_EQ(host.passes().size(), 5U) << "two kept maps, two maps, the mask";
         EXPECT_EQ(host.passes()[2].extent.width, 256U) << "new images: all of it";
         driver.clearEvents();
-        host.plan.views[1].dirty = {};
+        host.plan.views[1].contents.dirty = {};
         host.record(1);
         const auto passes = host.passes();
         ASSERT_EQ(passes.size(), 2U) << "one map and the mask";
@@ -150,8 +150,8 @@ TEST(NullSteps, steadyStateAllocatesNothing)
         Host host(driver, Filter::pcf, MapFormat::rg16);
         host.keep();
         for (std::uint32_t i = 0; i < 2; ++i) {
-            host.plan.views[i].part = i == 0 ? TexelPart::first : TexelPart::second;
-            host.plan.views[i].tile.layer = 0;
+            host.plan.views[i].place.part = i == 0 ? TexelPart::first : TexelPart::second;
+            host.plan.views[i].place.tile.layer = 0;
         }
         SunSteps& steps = host.plan.lights[0].steps;
         steps.alternate = alternate;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fits views with View::gpu_cascade to the camera's depth buffer, on the GPU: what is found is read by the passes that
-// draw the maps and is put into the mask's constants, and never waits for the CPU.
+// Fits views with ViewProjection::gpu_cascade to the camera's depth buffer, on the GPU: what is found is read by the
+// passes that draw the maps and is put into the mask's constants, and never waits for the CPU.
 #pragma once
 
 #include "descriptors.h"

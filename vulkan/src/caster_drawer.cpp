@@ -166,11 +166,11 @@ void CasterDrawer::Impl::ensurePipelines(const Plan& plan)
             end_of_group = i + viewsTogether(plan, i, true);
         }
         CasterPipelineKey key;
-        key.formats = mapFormats(optionsOf(plan, view), view.orthographic);
-        key.perspective = !view.orthographic;
-        key.clamp = view.clamp_near;
-        key.part = view.part;
-        key.placed = view.gpu_cascade != kNoIndex;
+        key.formats = mapFormats(optionsOf(plan, view), view.projection.orthographic);
+        key.perspective = !view.projection.orthographic;
+        key.clamp = view.projection.clamp_near;
+        key.part = view.place.part;
+        key.placed = view.projection.gpu_cascade != kNoIndex;
         ensureAllPasses(key, optionsOf(plan, view));
         if (i + 1 < end_of_group) { // with the next one at least
             key.layered = true;

@@ -161,8 +161,8 @@ void CasterDrawer::Impl::checkPass(const MapPass& pass) const
 /// What beginFrame() made room for is enough for every pass of its plan once.
 void CasterDrawer::Impl::checkRoom(const MapPass& pass, std::uint32_t instances) const
 {
-    const VkDeviceSize bytes =
-        instances * VkDeviceSize{instanceBytes(!pass.view->orthographic, pass.view_count > 1, pass.formats.ids)};
+    const VkDeviceSize bytes = instances * VkDeviceSize{instanceBytes(!pass.view->projection.orthographic,
+                                                                      pass.view_count > 1, pass.formats.ids)};
     const VkDeviceSize commands = std::min(instances, batcher.maxCommands()) * kCommandBytes;
     if (instances > handles.size() || instances_used + bytes > slot->instances.size() ||
         commands_used + commands > slot->commands.size()) {
@@ -193,11 +193,11 @@ std::uint32_t CasterDrawer::draw(const MapPass& pass)
     self.bindGeometry(pass);
     CasterPipelineKey key;
     key.formats = pass.formats;
-    key.perspective = !view.orthographic;
-    key.clamp = view.clamp_near;
+    key.perspective = !view.projection.orthographic;
+    key.clamp = view.projection.clamp_near;
     // What blocks light before blended casters is drawn to no texels that two maps share.
     const bool whole = pass.formats.blended || pass.formats.colour == VK_FORMAT_UNDEFINED;
-    key.part = whole ? TexelPart::whole : view.part;
+    key.part = whole ? TexelPart::whole : view.place.part;
     key.placed = pass.placement != VK_NULL_HANDLE;
     key.layered = layered;
     std::uint32_t drawn = 0;
@@ -206,7 +206,7 @@ std::uint32_t CasterDrawer::draw(const MapPass& pass)
     }
     self.commands_used += lists.command_count * kCommandBytes;
     self.instances_used +=
-        VkDeviceSize{lists.instance_count} * instanceBytes(!view.orthographic, layered, pass.formats.ids);
+        VkDeviceSize{lists.instance_count} * instanceBytes(!view.projection.orthographic, layered, pass.formats.ids);
     self.triangles += lists.index_count / 3;
     return drawn;
 }

@@ -64,7 +64,8 @@ double padOf(const Plan& plan, const LightPlan& light, const glm::dvec3& light_t
     const double texels = static_cast<double>((*plan.options)[light.options].reach_texels()) + 1.0;
     double pad_m = 0.0;
     for (const View& view : std::span(plan.views).subspan(light.first_view, light.view_count)) {
-        pad_m = std::max(pad_m, texels * view.texel_m * (view.parallel ? 1.0 : glm::length(light_to_eye)));
+        pad_m = std::max(pad_m, texels * view.projection.texel_m *
+                                    (view.projection.parallel ? 1.0 : glm::length(light_to_eye)));
     }
     return pad_m;
 }

@@ -36,11 +36,11 @@ void beginViewLabel(const Device& device, VkCommandBuffer commands, const Plan& 
 
 std::span<const std::uint32_t> castersOf(const Plan& plan, const View& view, CasterShare share)
 {
-    assert(view.first_caster + view.caster_count <= plan.casters.size() && view.still_count <= view.caster_count);
-    const auto all = std::span(plan.casters).subspan(view.first_caster, view.caster_count);
+    assert(view.casters.first + view.casters.count <= plan.casters.size() && view.casters.still <= view.casters.count);
+    const auto all = std::span(plan.casters).subspan(view.casters.first, view.casters.count);
     return share == CasterShare::all     ? all
-           : share == CasterShare::still ? all.first(view.still_count)
-                                         : all.subspan(view.still_count);
+           : share == CasterShare::still ? all.first(view.casters.still)
+                                         : all.subspan(view.casters.still);
 }
 
 MapPass passOf(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, VkColorComponentFlags colour_mask)
@@ -48,13 +48,13 @@ MapPass passOf(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, 
     const View& view = plan.views[index];
     MapPass pass;
     pass.commands = commands;
-    pass.formats = mapFormats(optionsOf(plan, view), view.orthographic);
+    pass.formats = mapFormats(optionsOf(plan, view), view.projection.orthographic);
     pass.plan = &plan;
     pass.view = &view;
     pass.view_index = index;
     pass.colour_mask = colour_mask;
-    pass.clip_from_world = glm::mat4(view.clip_from_world);
-    pass.metric_ws = glm::vec4(view.metric.metric_ws);
+    pass.clip_from_world = glm::mat4(view.projection.clip_from_world);
+    pass.metric_ws = glm::vec4(view.projection.metric.metric_ws);
     return pass;
 }
 
@@ -68,12 +68,12 @@ void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, C
 
 VkRect2D redrawnArea(const View& view, bool all)
 {
-    const VkRect2D tile = areaOf(view.tile);
+    const VkRect2D tile = areaOf(view.place.tile);
     if (all) {
         return tile;
     }
-    const TexelRect& dirty = view.dirty;
-    assert(dirty.x + dirty.width <= view.tile.width && dirty.y + dirty.height <= view.tile.height);
+    const TexelRect& dirty = view.contents.dirty;
+    assert(dirty.x + dirty.width <= view.place.tile.width && dirty.y + dirty.height <= view.place.tile.height);
     return {{tile.offset.x + static_cast<std::int32_t>(dirty.x), tile.offset.y + static_cast<std::int32_t>(dirty.y)},
             {dirty.width, dirty.height}};
 }

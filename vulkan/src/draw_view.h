@@ -28,7 +28,7 @@ enum class CasterShare : std::uint8_t { all, still, moving };
 /// Calls the host's callback for them. Rendering has begun.
 void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, CasterShare share,
               VkColorComponentFlags colour_mask, const DrawCasters& draw);
-/// What of the map's tile is drawn again: all of it, or what View::dirty says of a map that is restored.
+/// What of the map's tile is drawn again: all of it, or what ViewContents::dirty says of a map that is restored.
 [[nodiscard]] VkRect2D redrawnArea(const View& view, bool all);
 /// What is at most so many texels away from `area`, in the tile.
 [[nodiscard]] VkRect2D widened(const VkRect2D& area, const Tile& tile, std::int32_t x, std::int32_t y);

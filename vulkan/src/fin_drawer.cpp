@@ -43,13 +43,13 @@ static_assert(sizeof(FinPush) <= 128);
 /// But for the rows.
 FinPush pushOf(const MapPass& pass)
 {
-    const Tile& tile = pass.view->tile;
+    const Tile& tile = pass.view->place.tile;
     FinPush push{};
     push.tile = {static_cast<float>(tile.x), static_cast<float>(tile.y), 0.5F * static_cast<float>(tile.width),
                  0.5F * static_cast<float>(tile.height)};
     const std::uint32_t reach = optionsOf(*pass.plan, *pass.view).asked().smoothies.reach_texels;
     push.rule = {static_cast<float>(reach), pass.first_quantum, static_cast<float>(tile.layer),
-                 pass.view->clamp_near ? 0.0F : 1.0F};
+                 pass.view->projection.clamp_near ? 0.0F : 1.0F};
     return push;
 }
 
@@ -202,10 +202,10 @@ std::uint32_t FinDrawer::draw(const MapPass& pass)
             self.bind(pass);
         }
         const Rows3x4& world = self.transforms[object];
-        push.row_x = pack::composedRow(glm::row(view.clip_from_world, 0), world);
-        push.row_y = pack::composedRow(glm::row(view.clip_from_world, 1), world);
-        push.row_w = pack::composedRow(glm::row(view.clip_from_world, 3), world);
-        push.row_depth = pack::composedRow(glm::dvec4(view.metric.metric_ws), world);
+        push.row_x = pack::composedRow(glm::row(view.projection.clip_from_world, 0), world);
+        push.row_y = pack::composedRow(glm::row(view.projection.clip_from_world, 1), world);
+        push.row_w = pack::composedRow(glm::row(view.projection.clip_from_world, 3), world);
+        push.row_depth = pack::composedRow(glm::dvec4(view.projection.metric.metric_ws), world);
         vk.CmdPushConstants(pass.commands, self.layout.get(), kFinStages, 0, sizeof push, &push);
         vk.CmdDraw(pass.commands, shared::kVolumeCorners * mesh.element_count, 1,
                    shared::kVolumeCorners * mesh.first_element, mesh.first_vertex);

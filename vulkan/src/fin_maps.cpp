@@ -124,11 +124,11 @@ void FinMaps::recordMap(const MapJob& job, std::uint32_t index) const
 {
     const View& view = job.plan.views[index];
     // A fin reaches so far beyond its edge, and a texel's lean is its neighbours'.
-    const VkRect2D area = widened(redrawnArea(view, job.of(index).whole), view.tile, reach_ + 2, reach_ + 2);
+    const VkRect2D area = widened(redrawnArea(view, job.of(index).whole), view.place.tile, reach_ + 2, reach_ + 2);
     awaitMap(job.commands);
     beginViewLabel(device_, job.commands, job.plan, index);
     VkRenderingAttachmentInfo colour{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    colour.imageView = image_.layer(view.tile.layer);
+    colour.imageView = image_.layer(view.place.tile.layer);
     colour.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
     colour.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
     colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
@@ -146,7 +146,7 @@ void FinMaps::recordMap(const MapJob& job, std::uint32_t index) const
     info.pColorAttachments = &colour;
     info.pDepthAttachment = &depth;
     device_.vk.CmdBeginRendering(job.commands, &info);
-    setViewport(device_, job.commands, view.tile);
+    setViewport(device_, job.commands, view.place.tile);
     device_.vk.CmdSetScissor(job.commands, 0, 1, &area);
     MapPass pass = passOf(job.commands, job.plan, index, VK_COLOR_COMPONENT_R_BIT);
     pass.formats = finFormats();

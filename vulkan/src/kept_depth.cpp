@@ -99,15 +99,16 @@ void KeptDepth::copyOutgrown(VkCommandBuffer commands)
 void KeptDepth::draw(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, const DrawCasters& draw)
 {
     const View& view = plan.views[index];
-    VkImageLayout& layout = layouts_[view.kept_layer];
-    ImageBarrier barrier = barrierOf(image_, view.kept_layer);
+    VkImageLayout& layout = layouts_[view.contents.kept_layer];
+    ImageBarrier barrier = barrierOf(image_, view.contents.kept_layer);
     barrier.old_layout = layout;
     barrier.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT; // what was there may have been copied just now
     barrier.target_stages = kDepthStages;
     barrier.target_access = kDepthAccess;
     recordBarrier(device_, commands, barrier);
-    beginDepthRendering(device_, commands, view.tile, image_.layer(view.kept_layer), VK_ATTACHMENT_LOAD_OP_CLEAR);
+    beginDepthRendering(device_, commands, view.place.tile, image_.layer(view.contents.kept_layer),
+                        VK_ATTACHMENT_LOAD_OP_CLEAR);
     drawView(commands, plan, index, CasterShare::still, 0, draw);
     device_.vk.CmdEndRendering(commands);
     layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
@@ -128,12 +129,13 @@ void KeptDepth::restore(VkCommandBuffer commands, const View& view, const Image&
     barrier.target_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.target_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     recordBarrier(device_, commands, barrier);
-    const VkOffset3D first{static_cast<std::int32_t>(view.tile.x), static_cast<std::int32_t>(view.tile.y), 0};
+    const VkOffset3D first{static_cast<std::int32_t>(view.place.tile.x), static_cast<std::int32_t>(view.place.tile.y),
+                           0};
     VkImageCopy copy{};
-    copy.srcSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, view.kept_layer, 1};
+    copy.srcSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, view.contents.kept_layer, 1};
     copy.dstSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
     copy.srcOffset = first;
-    copy.extent = {view.tile.width, view.tile.height, 1};
+    copy.extent = {view.place.tile.width, view.place.tile.height, 1};
     device_.vk.CmdCopyImage(commands, image_.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, working.image(),
                             VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
     barrier.old_layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;

@@ -24,18 +24,18 @@ int depthFlags(const ResolvedOptions& options)
 
 float nearOverFar(const View& view, const DepthMetric& metric)
 {
-    return view.parallel ? 1.0F : static_cast<float>(metric.near_m / metric.far_m);
+    return view.projection.parallel ? 1.0F : static_cast<float>(metric.near_m / metric.far_m);
 }
 
 /// What takes depths of one metric to those of a view's, in the middle of what the view holds: the two may measure
 /// along directions that are not quite the same. x: factor, y: summand.
 glm::dvec2 carryOver(const DepthMetric& from, const View& view)
 {
-    const glm::dvec4& row = view.metric.metric_ws;
+    const glm::dvec4& row = view.projection.metric.metric_ws;
     const glm::dvec3 axis = glm::dvec3(row) / glm::dot(glm::dvec3(row), glm::dvec3(row));
-    const double start = glm::dot(row, glm::dvec4(view.light_place_ws, 1.0));
-    const glm::dvec3 middle_ws = view.light_place_ws + axis * (0.5 - start);
-    const double factor = (from.far_m - from.near_m) / (view.metric.far_m - view.metric.near_m);
+    const double start = glm::dot(row, glm::dvec4(view.projection.light_place_ws, 1.0));
+    const glm::dvec3 middle_ws = view.projection.light_place_ws + axis * (0.5 - start);
+    const double factor = (from.far_m - from.near_m) / (view.projection.metric.far_m - view.projection.metric.near_m);
     return {factor, 0.5 - factor * glm::dot(from.metric_ws, glm::dvec4(middle_ws, 1.0))};
 }
 
@@ -131,7 +131,7 @@ std::uint32_t LayerPlacer::slotOf(const Plan& plan, std::uint32_t view) const
 
 shared::GpuHistogramPush LayerPlacer::histogramPush(const View& view) const
 {
-    const Tile& tile = view.tile;
+    const Tile& tile = view.place.tile;
     const auto side = static_cast<int>(std::max(tile.width, tile.height));
     shared::GpuHistogramPush push;
     push.tile = {0, 0, tile.width, tile.height};
@@ -139,22 +139,22 @@ shared::GpuHistogramPush LayerPlacer::histogramPush(const View& view) const
     const int most = moments.placement == LayerPlacement::gaps ? shared::kMostPairsAlong : shared::kMostSamplesAlong;
     const auto reach = static_cast<int>(blurRadius(moments)) / 2 + 1;
     push.more = {(side + most - 1) / most, depthFlags(options_), reach, 0};
-    push.metric = {nearOverFar(view, view.metric), 0.0F, 0.0F, 0.0F};
+    push.metric = {nearOverFar(view, view.projection.metric), 0.0F, 0.0F, 0.0F};
     return push;
 }
 
 shared::GpuPlacePush LayerPlacer::placePush(const View& view, std::uint32_t index, bool held) const
 {
     const Slot& slot = slots_[index];
-    const bool anew = !slot.metric || slot.map != view.map || (!view.map && slot.light != view.light);
-    const DepthMetric& before = anew ? view.metric : *slot.metric;
+    const bool anew = !slot.metric || slot.map != view.place.map || (!view.place.map && slot.light != view.light);
+    const DepthMetric& before = anew ? view.projection.metric : *slot.metric;
     const glm::dvec2 carry = carryOver(before, view);
     shared::GpuPlacePush push;
     const bool to_rest = anew || held;
     push.slot = {index, options_.moments().layers, to_rest ? kFirstSteps : kLaterSteps, depthFlags(options_)};
     push.how = {options_.moments().layer_overlap, to_rest ? 1.0F : kLaterShare, anew ? 1.0F : 0.0F,
                 held && !anew ? 1.0F : 0.0F};
-    push.carry = {carry.x, carry.y, nearOverFar(view, before), nearOverFar(view, view.metric)};
+    push.carry = {carry.x, carry.y, nearOverFar(view, before), nearOverFar(view, view.projection.metric)};
     return push;
 }
 
@@ -189,9 +189,9 @@ void LayerPlacer::record(VkCommandBuffer commands, const Plan& plan, std::uint32
         const bool held = technique.motion != Motion::free || technique.fit == Fit::scene;
         passes_->record(commands, {histogramPush(view), placePush(view, index, held)});
     }
-    slots_[index].map = view.map;
+    slots_[index].map = view.place.map;
     slots_[index].light = view.light;
-    slots_[index].metric = view.metric;
+    slots_[index].metric = view.projection.metric;
 }
 
 VkBuffer LayerPlacer::buffer() const

@@ -15,7 +15,7 @@ bool DepthMaps::keepsDepth(const View& view) const
 {
     const bool pairs =
         colourMaskOf(storage_.colour, TexelPart::first) != colourMaskOf(storage_.colour, TexelPart::whole);
-    return !pairs || view.part == TexelPart::whole || !view.orthographic;
+    return !pairs || view.place.part == TexelPart::whole || !view.projection.orthographic;
 }
 
 MapRestorer::Source DepthMaps::sourceFor(const View& view) const
@@ -34,7 +34,7 @@ bool DepthMaps::prepareKept(const Plan& plan, std::uint32_t options)
     const bool depths =
         kept_depths_ || storage_.depthOnly() ||
         std::any_of(plan.views.begin(), plan.views.end(), [&](const View& view) {
-            return optionsIndexOf(plan, view) == options && view.kept_layer != kNoIndex && keepsDepth(view);
+            return optionsIndexOf(plan, view) == options && view.contents.kept_layer != kNoIndex && keepsDepth(view);
         });
     const bool has_room = (!depths || kept_depths_.covers(extent, layers)) &&
                           (storage_.depthOnly() || kept_colours_.covers(extent, layers));
@@ -64,11 +64,11 @@ void DepthMaps::makeKept(std::uint32_t layers, bool depths)
 DepthMaps::Target DepthMaps::keptTarget(const View& view) const
 {
     const bool keeps_depth = keepsDepth(view);
-    return {storage_.depthOnly() ? VkImageView{VK_NULL_HANDLE} : kept_colours_.image().layer(view.kept_layer),
-            keeps_depth ? kept_depths_.image().layer(view.kept_layer) : depth_.layer(0),
-            view.part == TexelPart::whole,
+    return {storage_.depthOnly() ? VkImageView{VK_NULL_HANDLE} : kept_colours_.image().layer(view.contents.kept_layer),
+            keeps_depth ? kept_depths_.image().layer(view.contents.kept_layer) : depth_.layer(0),
+            view.place.part == TexelPart::whole,
             keeps_depth,
-            areaOf(view.tile),
+            areaOf(view.place.tile),
             1};
 }
 
@@ -79,16 +79,16 @@ void DepthMaps::drawKept(const MapJob& job)
     const auto isDrawnFirst = [&](std::uint32_t index) { // of those that share its layer
         return std::none_of(views.begin(), views.begin() + index, [&](const View& other) {
             const auto earlier = static_cast<std::uint32_t>(&other - views.data());
-            return job.of(earlier).draw_kept && other.kept_layer == views[index].kept_layer;
+            return job.of(earlier).draw_kept && other.contents.kept_layer == views[index].contents.kept_layer;
         });
     };
     for (std::uint32_t i = 0; i < views.size(); ++i) {
         if (job.of(i).draw_kept && isDrawnFirst(i)) {
             if (kept_depths_) {
-                kept_depths_.toAttachment(before, views[i].kept_layer);
+                kept_depths_.toAttachment(before, views[i].contents.kept_layer);
             }
             if (kept_colours_) {
-                kept_colours_.toAttachment(before, views[i].kept_layer);
+                kept_colours_.toAttachment(before, views[i].contents.kept_layer);
             }
         }
     }
@@ -112,15 +112,16 @@ void DepthMaps::drawKept(const MapJob& job, std::uint32_t index)
     if (!keepsDepth(view)) {
         waitForDepth(barriers);
     }
-    if (view.part != TexelPart::whole) { // the other part of the same texels may just have been drawn
-        kept_colours_.waitForDrawing(barriers, view.kept_layer);
+    if (view.place.part != TexelPart::whole) { // the other part of the same texels may just have been drawn
+        kept_colours_.waitForDrawing(barriers, view.contents.kept_layer);
     }
     barriers.record();
-    beginRendering(job.commands, view.tile, keptTarget(view));
-    if (view.part != TexelPart::whole) {
-        restorer_->clear(job.commands, view.part);
+    beginRendering(job.commands, view.place.tile, keptTarget(view));
+    if (view.place.part != TexelPart::whole) {
+        restorer_->clear(job.commands, view.place.part);
     }
-    drawView(job.commands, job.plan, index, CasterShare::still, colourMaskOf(storage_.colour, view.part), job.draw);
+    drawView(job.commands, job.plan, index, CasterShare::still, colourMaskOf(storage_.colour, view.place.part),
+             job.draw);
     device_.vk.CmdEndRendering(job.commands);
     device_.endLabel(job.commands);
 }

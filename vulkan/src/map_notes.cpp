@@ -28,9 +28,9 @@ bool overlap(TexelPart a, TexelPart b)
 ViewWork asTheViewSays(const View& view)
 {
     ViewWork work;
-    work.draw = view.redraw;
-    work.draw_kept = view.redraw && view.kept_layer != kNoIndex && view.redraw_kept;
-    work.whole = view.kept_layer == kNoIndex || work.draw_kept;
+    work.draw = view.contents.redraw;
+    work.draw_kept = view.contents.redraw && view.contents.kept_layer != kNoIndex && view.contents.redraw_kept;
+    work.whole = view.contents.kept_layer == kNoIndex || work.draw_kept;
     return work;
 }
 
@@ -38,14 +38,14 @@ ViewWork asTheViewSays(const View& view)
 
 MapNotes::Held MapNotes::mapOf(const Plan& plan, const View& view)
 {
-    return {view.makes, optionsIndexOf(plan, view), view.tile, view.part, false};
+    return {view.contents.makes, optionsIndexOf(plan, view), view.place.tile, view.place.part, false};
 }
 
 MapNotes::Held MapNotes::keptOf(const Plan& plan, const View& view)
 {
-    Tile tile = view.tile;
-    tile.layer = view.kept_layer;
-    return {view.kept_makes, optionsIndexOf(plan, view), tile, view.part, true};
+    Tile tile = view.place.tile;
+    tile.layer = view.contents.kept_layer;
+    return {view.contents.kept_makes, optionsIndexOf(plan, view), tile, view.place.part, true};
 }
 
 bool MapNotes::holds(MapId id, const Held& wanted) const
@@ -62,8 +62,8 @@ void MapNotes::reserve(const Plan& plan)
 {
     std::size_t maps = plan.map_count;
     for (const View& view : plan.views) {
-        maps = std::max<std::size_t>(maps, view.map ? view.map.index + 1 : 0);
-        maps = std::max<std::size_t>(maps, view.kept_map ? view.kept_map.index + 1 : 0);
+        maps = std::max<std::size_t>(maps, view.place.map ? view.place.map.index + 1 : 0);
+        maps = std::max<std::size_t>(maps, view.contents.kept_map ? view.contents.kept_map.index + 1 : 0);
     }
     held_.resize(std::max(held_.size(), maps));
     work_.reserve(plan.views.size());
@@ -75,22 +75,22 @@ std::span<const ViewWork> MapNotes::workFor(const Plan& plan)
     work_.clear();
     for (const View& view : plan.views) {
         ViewWork work = asTheViewSays(view);
-        if (view.map && view.makes == 0) {
+        if (view.place.map && view.contents.makes == 0) {
             work = {};
-        } else if (view.map) {
+        } else if (view.place.map) {
             Held presumed = mapOf(plan, view);
-            presumed.content = view.presumes;
-            const bool map_holds = holds(view.map, presumed);
-            work.draw = view.redraw || !map_holds;
-            work.whole = !map_holds || view.kept_layer == kNoIndex;
-            if (view.kept_layer != kNoIndex) {
+            presumed.content = view.contents.presumes;
+            const bool map_holds = holds(view.place.map, presumed);
+            work.draw = view.contents.redraw || !map_holds;
+            work.whole = !map_holds || view.contents.kept_layer == kNoIndex;
+            if (view.contents.kept_layer != kNoIndex) {
                 Held kept = keptOf(plan, view);
-                kept.content = view.kept_presumes;
-                work.draw_kept = work.draw && (view.redraw_kept || !holds(view.kept_map, kept));
+                kept.content = view.contents.kept_presumes;
+                work.draw_kept = work.draw && (view.contents.redraw_kept || !holds(view.contents.kept_map, kept));
                 work.whole = work.whole || work.draw_kept;
             }
         }
-        if (work.draw && !work.whole && view.dirty.empty()) {
+        if (work.draw && !work.whole && view.contents.dirty.empty()) {
             work.draw = false;
         }
         work_.push_back(work);
@@ -126,12 +126,12 @@ void MapNotes::done(const Plan& plan)
     for (std::size_t i = 0; i < plan.views.size(); ++i) {
         const View& view = plan.views[i];
         changes_ += work_[i].draw || work_[i].draw_kept ? 1 : 0;
-        if (view.kept_map && work_[i].draw_kept) {
-            note(view.kept_map, keptOf(plan, view));
+        if (view.contents.kept_map && work_[i].draw_kept) {
+            note(view.contents.kept_map, keptOf(plan, view));
         }
-        if (view.map && view.makes != 0 && (work_[i].draw || view.redraw)) {
-            note(view.map, mapOf(plan, view));
-        } else if (!view.map && work_[i].draw) {
+        if (view.place.map && view.contents.makes != 0 && (work_[i].draw || view.contents.redraw)) {
+            note(view.place.map, mapOf(plan, view));
+        } else if (!view.place.map && work_[i].draw) {
             forgetUnder(mapOf(plan, view));
         }
     }

@@ -13,7 +13,7 @@ namespace gnomon::vulkan {
 /// What there is to do for one view.
 struct ViewWork {
     bool draw = false;      // the map, or a part of it
-    bool whole = false;     // all of the tile; else what View::dirty says
+    bool whole = false;     // all of the tile; else what ViewContents::dirty says
     bool draw_kept = false; // what stands still, into the kept layer, first
 };
 

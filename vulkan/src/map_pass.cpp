@@ -16,7 +16,7 @@ namespace {
 bool sharesTexels(const Plan& plan, std::uint32_t options)
 {
     return std::any_of(plan.views.begin(), plan.views.end(), [&](const View& view) {
-        return optionsIndexOf(plan, view) == options && view.part != TexelPart::whole;
+        return optionsIndexOf(plan, view) == options && view.place.part != TexelPart::whole;
     });
 }
 
@@ -118,7 +118,7 @@ MapRecorder::Prepared DepthMaps::prepare(const Plan& plan, std::uint32_t options
     }
     for (const View& view : plan.views) {
         if (restorer_ && optionsIndexOf(plan, view) == options) {
-            restorer_->ensure(view.part, sourceFor(view));
+            restorer_->ensure(view.place.part, sourceFor(view));
         }
     }
     prepared.changed = prepareKept(plan, options) || prepared.changed;
@@ -148,7 +148,7 @@ void DepthMaps::prepareTogether(const Plan& plan, std::uint32_t options)
         const bool together = optionsIndexOf(plan, plan.views[i]) == options && isDrawnTogether(plan, i);
         const std::uint32_t count = together ? viewsTogether(plan, i, true) : 1;
         for (std::uint32_t rest = count; rest > 1; --rest) {
-            const std::uint32_t first = plan.views[i].tile.layer + count - rest;
+            const std::uint32_t first = plan.views[i].place.tile.layer + count - rest;
             const Layers* const had = layersFrom(first);
             if (had == nullptr || had->count < rest) {
                 std::erase_if(layers_, [&](Layers& one) {
@@ -177,11 +177,11 @@ void DepthMaps::prepareTogether(const Plan& plan, std::uint32_t options)
 DepthMaps::Target DepthMaps::mapTarget(const View& view, const ViewWork& work) const
 {
     const VkRect2D area = redrawnArea(view, work.whole);
-    const VkImageView layer = maps_.image().layer(view.tile.layer);
+    const VkImageView layer = maps_.image().layer(view.place.tile.layer);
     if (storage_.depthOnly()) {
         return {VK_NULL_HANDLE, layer, true, true, area, 1};
     }
-    return {layer, depth_.layer(0), view.part == TexelPart::whole, false, area, 1};
+    return {layer, depth_.layer(0), view.place.part == TexelPart::whole, false, area, 1};
 }
 
 /// Of `count` views with this tile in consecutive layers.
@@ -244,7 +244,7 @@ void DepthMaps::drawMaps(const MapJob& job)
     BarrierBatch before(device_, job.commands);
     for (std::uint32_t layer = 0; layer < maps_.image().info().layers; ++layer) {
         for (std::uint32_t i = 0; i < views.size(); ++i) {
-            if (job.of(i).draw && views[i].tile.layer == layer) {
+            if (job.of(i).draw && views[i].place.tile.layer == layer) {
                 maps_.toAttachment(before, layer);
                 break;
             }
@@ -266,12 +266,12 @@ void DepthMaps::drawMap(const MapJob& job, std::uint32_t index)
 {
     const View& view = job.plan.views[index];
     const VkCommandBuffer commands = job.commands;
-    assert(view.tile.x + view.tile.width <= maps_.image().info().extent.width &&
-           view.tile.y + view.tile.height <= maps_.image().info().extent.height);
+    assert(view.place.tile.x + view.place.tile.width <= maps_.image().info().extent.width &&
+           view.place.tile.y + view.place.tile.height <= maps_.image().info().extent.height);
     beginViewLabel(device_, commands, job.plan, index);
     if (isDrawnTwice(optionsOf(job.plan, view))) {
         midpoints_->drawSurfaces(job, index);
-        beginRendering(commands, view.tile, mapTarget(view, job.of(index)));
+        beginRendering(commands, view.place.tile, mapTarget(view, job.of(index)));
         midpoints_->drawMidpoint(commands);
         device_.vk.CmdEndRendering(commands);
         device_.endLabel(commands);
@@ -281,18 +281,18 @@ void DepthMaps::drawMap(const MapJob& job, std::uint32_t index)
     if (!storage_.depthOnly()) {
         waitForDepth(barriers);
     }
-    if (view.part != TexelPart::whole) { // the other part of the same texels may just have been drawn
-        maps_.waitForDrawing(barriers, view.tile.layer);
+    if (view.place.part != TexelPart::whole) { // the other part of the same texels may just have been drawn
+        maps_.waitForDrawing(barriers, view.place.tile.layer);
     }
     barriers.record();
-    beginRendering(commands, view.tile, mapTarget(view, job.of(index)));
-    if (view.kept_layer != kNoIndex) {
-        restorer_->restore(commands, view.part, sourceFor(view), view.kept_layer);
-    } else if (view.part != TexelPart::whole) {
-        restorer_->clear(commands, view.part);
+    beginRendering(commands, view.place.tile, mapTarget(view, job.of(index)));
+    if (view.contents.kept_layer != kNoIndex) {
+        restorer_->restore(commands, view.place.part, sourceFor(view), view.contents.kept_layer);
+    } else if (view.place.part != TexelPart::whole) {
+        restorer_->clear(commands, view.place.part);
     }
-    drawView(commands, job.plan, index, view.kept_layer != kNoIndex ? CasterShare::moving : CasterShare::all,
-             colourMaskOf(storage_.colour, view.part), job.draw);
+    drawView(commands, job.plan, index, view.contents.kept_layer != kNoIndex ? CasterShare::moving : CasterShare::all,
+             colourMaskOf(storage_.colour, view.place.part), job.draw);
     device_.vk.CmdEndRendering(commands);
     device_.endLabel(commands);
 }
@@ -305,7 +305,7 @@ void DepthMaps::drawTogether(const MapJob& job, std::uint32_t first, std::uint32
         BarrierBatch barriers(device_, commands);
         waitForDepth(barriers);
     }
-    const Tile& tile = job.plan.views[first].tile;
+    const Tile& tile = job.plan.views[first].place.tile;
     beginRendering(commands, tile, targetOf(tile, count));
     MapPass pass = passOf(commands, job.plan, first, colourMaskOf(storage_.colour, TexelPart::whole));
     pass.view_count = count;
@@ -354,7 +354,7 @@ void DepthMaps::makeBlocks(const MapJob& job)
             begun = true;
         }
         const View& view = job.plan.views[i];
-        blocks_->record(job.commands, redrawnArea(view, job.of(i).whole), view.tile.layer);
+        blocks_->record(job.commands, redrawnArea(view, job.of(i).whole), view.place.tile.layer);
     }
     if (begun) {
         blocks_->end(job.commands);

@@ -13,8 +13,8 @@
 namespace gnomon::vulkan {
 namespace {
 
-/// The module that has the filter, and the one for a single view of any kind, whose numbers come from the vertex shader;
-/// empty where there is none.
+/// The module that has the filter, and the one for a single view of any kind, whose numbers come from the vertex
+/// shader; empty where there is none.
 struct MaskCode {
     std::span<const std::uint32_t> any;
     std::span<const std::uint32_t> alone;

@@ -23,12 +23,12 @@ struct MaskConstants {
     VkBool32 coloured = VK_FALSE;    // pack::MaskDraw::coloured
     std::uint32_t tile_channels = 0; // CompactMaskRule::channels
     VkBool32 takes_away = VK_FALSE;  // of a compact mask, a draw that shares: what lights do not give
-    VkBool32 paraboloid = VK_FALSE;  // views may be View::paraboloid
+    VkBool32 paraboloid = VK_FALSE;  // views may be ViewProjection::paraboloid
     VkBool32 has_ids = VK_FALSE;
     VkBool32 slices_alone = VK_FALSE;   // by MaskPipelineKey::told_apart
     VkBool32 paired = VK_FALSE;         // pack::MaskDraw::paired; of modules for one view alone
     std::uint32_t pixels_per_texel = 1; // DrawnAs::half: 2
-    VkBool32 layered = VK_FALSE;        // views may be View::layered
+    VkBool32 layered = VK_FALSE;        // views may be ViewServes::layered
     VkBool32 orthographic = VK_FALSE;   // pack::MaskDraw::orthographic
 
     bool operator==(const MaskConstants&) const = default;

@@ -96,7 +96,7 @@ void MidpointMaps::makeReadable(VkCommandBuffer commands, const Image& surface) 
 void MidpointMaps::drawSurfaces(const MapJob& job, std::uint32_t view)
 {
     const VkCommandBuffer commands = job.commands;
-    const Tile& tile = job.plan.views[view].tile;
+    const Tile& tile = job.plan.views[view].place.tile;
     MapPass pass = passOf(commands, job.plan, view, 0);
     pass.casters = castersOf(job.plan, job.plan.views[view], CasterShare::all);
     for (const Image& surface : surfaces_) {

@@ -58,8 +58,8 @@ MomentMaps::Need MomentMaps::needOf(const Plan& plan, std::uint32_t options)
     need.atlas = {std::max(atlas.width, 1U), std::max(atlas.height, 1U), std::max(atlas.layers, 1U)};
     for (const View& view : plan.views) {
         if (optionsIndexOf(plan, view) == options) {
-            need.tile.width = std::max(need.tile.width, view.tile.width);
-            need.tile.height = std::max(need.tile.height, view.tile.height);
+            need.tile.width = std::max(need.tile.width, view.place.tile.width);
+            need.tile.height = std::max(need.tile.height, view.place.tile.height);
         }
     }
     need.kept_layers = atlas.kept_layers;
@@ -314,14 +314,14 @@ void MomentMaps::recordDepth(const MapJob& job, std::uint32_t index)
     const VkCommandBuffer commands = job.commands;
     const Plan& plan = job.plan;
     const View& view = plan.views[index];
-    assert(view.tile.x + view.tile.width <= images_.maps.info().extent.width &&
-           view.tile.y + view.tile.height <= images_.maps.info().extent.height);
+    assert(view.place.tile.x + view.place.tile.width <= images_.maps.info().extent.width &&
+           view.place.tile.y + view.place.tile.height <= images_.maps.info().extent.height);
     beginViewLabel(device_, commands, plan, index);
-    const Tile tile{0, 0, 0, view.tile.width, view.tile.height}; // in the working image
+    const Tile tile{0, 0, 0, view.place.tile.width, view.place.tile.height}; // in the working image
     ImageBarrier barrier;
     barrier.image = images_.depth.image();
     barrier.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
-    if (view.kept_layer != kNoIndex) {
+    if (view.contents.kept_layer != kNoIndex) {
         if (job.of(index).draw_kept) {
             kept_.draw(commands, plan, index, job.draw);
         }
@@ -355,12 +355,14 @@ void MomentMaps::recordFilter(const MapJob& job, std::uint32_t index)
     const View& view = plan.views[index];
     FilterStep step;
     step.commands = commands;
-    step.tile = view.tile;
-    step.first_layer = view.tile.layer * layers_per_map_;
+    step.tile = view.place.tile;
+    step.first_layer = view.place.tile.layer * layers_per_map_;
     step.image_layers = layers_per_map_;
     step.strips = images_.strips;
     step.depth_slot = placer_.slotOf(plan, index);
-    step.near_over_far = view.parallel ? 1.0F : static_cast<float>(view.metric.near_m / view.metric.far_m);
+    step.near_over_far = view.projection.parallel
+                             ? 1.0F
+                             : static_cast<float>(view.projection.metric.near_m / view.projection.metric.far_m);
     step.counts_offset = job.slot * counts_stride_;
 
     placer_.record(commands, plan, index);

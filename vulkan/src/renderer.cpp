@@ -137,7 +137,7 @@ void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, co
         parts.reuse[slot] = countReuse(plan, work);
         const DrawCasters placed = [&](const MapPass& pass) {
             MapPass with = pass;
-            if (pass.view->gpu_cascade != kNoIndex) {
+            if (pass.view->projection.gpu_cascade != kNoIndex) {
                 with.placement = parts.fitter.views();
                 with.placement_offset = pass.view_index * kPlacementStride;
             }

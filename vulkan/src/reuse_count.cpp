@@ -15,7 +15,7 @@ MapReuse countReuse(const Plan& plan, std::span<const ViewWork> work)
         const auto count = [&](CasterShare share) {
             return static_cast<std::uint32_t>(castersOf(plan, view, share).size());
         };
-        const bool kept = view.kept_layer != kNoIndex;
+        const bool kept = view.contents.kept_layer != kNoIndex;
         if (!work[i].draw) {
             ++reuse.held;
         } else if (!kept) {
@@ -27,7 +27,7 @@ MapReuse countReuse(const Plan& plan, std::span<const ViewWork> work)
                 reuse.still_casters += count(CasterShare::still);
             }
             const VkRect2D area =
-                optionsOf(plan, view).filterable() ? areaOf(view.tile) : redrawnArea(view, work[i].whole);
+                optionsOf(plan, view).filterable() ? areaOf(view.place.tile) : redrawnArea(view, work[i].whole);
             ++reuse.restored;
             reuse.restored_texels += std::uint64_t{area.extent.width} * area.extent.height;
             reuse.moving_casters += count(CasterShare::moving);

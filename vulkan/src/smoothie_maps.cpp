@@ -137,9 +137,9 @@ void SmoothieMaps::recordMap(VkCommandBuffer commands, const View& view, const V
     // A texel that was drawn anew may be an edge now, or be none any more, for all that it reaches; whether its
     // neighbours are edges depends on it, too.
     const std::int32_t touched = reach_ + 2;
-    const VkRect2D area = widened(redrawn, view.tile, touched, touched);
-    const VkRect2D rows = widened(area, view.tile, 0, reach_);
-    dispatch(commands, edges_, view, widened(rows, view.tile, reach_, 0));
+    const VkRect2D area = widened(redrawn, view.place.tile, touched, touched);
+    const VkRect2D rows = widened(area, view.place.tile, 0, reach_);
+    dispatch(commands, edges_, view, widened(rows, view.place.tile, reach_, 0));
     recordBarrier(device_, commands, betweenPasses());
     dispatch(commands, along_x_, view, rows);
     recordBarrier(device_, commands, betweenPasses());
@@ -152,7 +152,7 @@ void SmoothieMaps::dispatch(VkCommandBuffer commands, const Pass& pass, const Vi
     const auto at = [](std::uint32_t texel) {
         return static_cast<std::int32_t>(texel);
     };
-    const Tile& tile = view.tile;
+    const Tile& tile = view.place.tile;
     const Push push{{at(tile.x), at(tile.y), at(tile.x + tile.width) - 1, at(tile.y + tile.height) - 1},
                     {area.offset.x, area.offset.y, at(tile.layer), reach_},
                     {quantum_, 0.0F, 0.0F, 0.0F}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One texel of whole numbers, bound where a shader declares ids or blocks that a frame does not have. Nobody reads it: a
-// constant of the pipeline says so.
+// One texel of whole numbers, bound where a shader declares ids or blocks that a frame does not have. Nobody reads it:
+// a constant of the pipeline says so.
 #pragma once
 
 #include "barriers.h"
@@ -16,7 +16,7 @@ public:
     }
 
     explicit operator bool() const { return static_cast<bool>(image_); }
-    [[nodiscard]] VkImageView view() const { return image_.view(); }      // an array of one layer
+    [[nodiscard]] VkImageView view() const { return image_.view(); } // an array of one layer
     [[nodiscard]] VkImageView layer() const { return image_.layer(0); }
     /// Before the first pass that binds it, in SHADER_READ_ONLY_OPTIMAL.
     void makeReadable(const Device& device, VkCommandBuffer commands)

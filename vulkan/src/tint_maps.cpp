@@ -68,8 +68,8 @@ bool TintMaps::prepare(const Plan& plan, std::uint32_t options, const std::funct
         const View& view = plan.views[i];
         if (optionsIndexOf(plan, view) == options &&
             std::ranges::any_of(castersOf(plan, view, CasterShare::all), is_blended)) {
-            places_[i] =
-                1 + (paired ? 2 * view.tile.layer + (view.part == TexelPart::second ? 1U : 0U) : view.tile.layer);
+            places_[i] = 1 + (paired ? 2 * view.place.tile.layer + (view.place.part == TexelPart::second ? 1U : 0U)
+                                     : view.place.tile.layer);
             in_use_ = true;
         }
     }
@@ -86,7 +86,7 @@ bool TintMaps::prepare(const Plan& plan, std::uint32_t options, const std::funct
 bool TintMaps::draws(const MapJob& job, std::uint32_t index) const
 {
     const View& view = job.plan.views[index];
-    const bool holds = view.makes == 0 || held_[view.map.index] == view.makes;
+    const bool holds = view.contents.makes == 0 || held_[view.place.map.index] == view.contents.makes;
     return places_[index] != 0 && (job.of(index).draw || !holds);
 }
 
@@ -104,7 +104,7 @@ bool TintMaps::record(const MapJob& job)
     for (std::uint32_t i = 0; i < places_.size(); ++i) {
         if (draws(job, i)) {
             draw(job, i);
-            held_[job.plan.views[i].map.index] = job.plan.views[i].makes;
+            held_[job.plan.views[i].place.map.index] = job.plan.views[i].contents.makes;
         }
     }
     BarrierBatch after(device_, job.commands);
@@ -132,16 +132,16 @@ void TintMaps::draw(const MapJob& job, std::uint32_t index)
     beginViewLabel(device_, job.commands, job.plan, index);
     MapPass pass = passOf(job.commands, job.plan, index, 0);
     pass.casters = castersOf(job.plan, view, CasterShare::all);
-    pass.formats = blockerFormats(view.orthographic, view.paraboloid);
-    beginRendering(job.commands, view.tile, VK_NULL_HANDLE);
+    pass.formats = blockerFormats(view.projection.orthographic, view.projection.paraboloid);
+    beginRendering(job.commands, view.place.tile, VK_NULL_HANDLE);
     job.draw(pass);
     device_.vk.CmdEndRendering(job.commands);
     depth.old_layout = depth.new_layout;
     recordBarrier(device_, job.commands, depth);
-    pass.formats = tintFormats(view.paraboloid);
+    pass.formats = tintFormats(view.projection.paraboloid);
     pass.colour_mask =
         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    beginRendering(job.commands, view.tile, tints_.image().layer(layer));
+    beginRendering(job.commands, view.place.tile, tints_.image().layer(layer));
     job.draw(pass);
     device_.vk.CmdEndRendering(job.commands);
     device_.endLabel(job.commands);

@@ -22,19 +22,20 @@ bool isRange(std::uint64_t first, std::uint64_t count, std::uint64_t size)
 
 const char* wrongOf(const View& view, const MapPages& pages)
 {
-    const Tile& tile = view.tile;
+    const Tile& tile = view.place.tile;
     if (tile.width == 0 || tile.height == 0 || !isRange(tile.x, tile.width, pages.width) ||
         !isRange(tile.y, tile.height, pages.height) || tile.layer >= pages.layers) {
         return "a view's tile is not inside of its pages";
     }
-    if (view.kept_layer != kNoIndex && view.kept_layer >= pages.kept_layers) {
+    if (view.contents.kept_layer != kNoIndex && view.contents.kept_layer >= pages.kept_layers) {
         return "a view's kept layer is beyond its pages";
     }
-    if (!isRange(view.dirty.x, view.dirty.width, tile.width) ||
-        !isRange(view.dirty.y, view.dirty.height, tile.height)) {
+    if (!isRange(view.contents.dirty.x, view.contents.dirty.width, tile.width) ||
+        !isRange(view.contents.dirty.y, view.contents.dirty.height, tile.height)) {
         return "what is dirty of a view is not inside of its tile";
     }
-    if ((view.map && view.map.index >= kMostMaps) || (view.kept_map && view.kept_map.index >= kMostMaps)) {
+    if ((view.place.map && view.place.map.index >= kMostMaps) ||
+        (view.contents.kept_map && view.contents.kept_map.index >= kMostMaps)) {
         return "a view's map has a name that no planner gave";
     }
     return nullptr;
@@ -74,11 +75,11 @@ const char* wrongOf(const Plan& plan)
         if (view.light >= plan.lights.size()) {
             return "a view names a light that the plan has not";
         }
-        if (!isRange(view.first_caster, view.caster_count, plan.casters.size()) ||
-            view.still_count > view.caster_count) {
+        if (!isRange(view.casters.first, view.casters.count, plan.casters.size()) ||
+            view.casters.still > view.casters.count) {
             return "a view's casters are beyond the plan's list";
         }
-        const auto casters = std::span(plan.casters).subspan(view.first_caster, view.caster_count);
+        const auto casters = std::span(plan.casters).subspan(view.casters.first, view.casters.count);
         if (plan.lights[view.light].first_object_id != kNoIndex &&
             std::ranges::any_of(casters, [&](std::uint32_t object) { return object >= plan.object_bounds.size(); })) {
             return "a view's casters are objects without ids";
@@ -147,7 +148,7 @@ std::vector<PreparedSize::OfOptions>& PreparedSize::measure(const Plan& plan, st
     }
     for (const View& view : plan.views) {
         std::uint32_t& side = out[plan.lights[view.light].options].tile_side;
-        side = std::max({side, view.tile.width, view.tile.height});
+        side = std::max({side, view.place.tile.width, view.place.tile.height});
     }
     return out;
 }

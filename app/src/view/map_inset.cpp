@@ -29,8 +29,8 @@ std::vector<std::uint32_t> pagesOf(const Plan& plan)
 {
     std::vector<std::uint32_t> pages;
     for (const View& view : plan.views) {
-        if (view.tile.width > 0) {
-            pages.push_back(view.tile.layer);
+        if (view.place.tile.width > 0) {
+            pages.push_back(view.place.tile.layer);
         }
     }
     std::sort(pages.begin(), pages.end());
@@ -42,7 +42,7 @@ std::vector<std::uint32_t> pagesOf(const Plan& plan)
 /// One map's depths, stretched from black to white.
 void paintMap(Image8& picture, const Page& page, const View& view)
 {
-    const Tile& tile = view.tile;
+    const Tile& tile = view.place.tile;
     const auto first_x = static_cast<std::uint32_t>(std::ceil(tile.x / page.scale));
     const auto first_y = static_cast<std::uint32_t>(std::ceil(tile.y / page.scale));
     const auto end_x = std::min(page.size_px.x, static_cast<std::uint32_t>((tile.x + tile.width) / page.scale));
@@ -50,7 +50,7 @@ void paintMap(Image8& picture, const Page& page, const View& view)
     const auto depthAt = [&](std::uint32_t x, std::uint32_t y) {
         const auto from_x = std::min(static_cast<std::uint32_t>((x + 0.5) * page.scale), page.texels.width - 1);
         const auto from_y = std::min(static_cast<std::uint32_t>((y + 0.5) * page.scale), page.texels.height - 1);
-        return pack::mapDepth(page.options, {page.texels.pixel(from_x, from_y), page.texels.channels}, view.part);
+        return pack::mapDepth(page.options, {page.texels.pixel(from_x, from_y), page.texels.channels}, view.place.part);
     };
     float least = std::numeric_limits<float>::infinity();
     float most = -least;
@@ -84,11 +84,11 @@ void MapInset::paintPage(Viewer& viewer, std::uint32_t layer, const glm::uvec2& 
     const glm::dvec2 whole(picture.width, picture.height);
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
         const View& view = plan.views[i];
-        if (view.tile.layer == layer && view.tile.width > 0) {
+        if (view.place.tile.layer == layer && view.place.tile.width > 0) {
             paintMap(picture, page, view);
-            squares_.push_back({(glm::dvec2(at) + glm::dvec2(view.tile.x, view.tile.y) / scale) / whole,
-                                glm::dvec2(view.tile.width, view.tile.height) / scale / whole, view.light,
-                                i - plan.lights[view.light].first_view, view.redraw});
+            squares_.push_back({(glm::dvec2(at) + glm::dvec2(view.place.tile.x, view.place.tile.y) / scale) / whole,
+                                glm::dvec2(view.place.tile.width, view.place.tile.height) / scale / whole, view.light,
+                                i - plan.lights[view.light].first_view, view.contents.redraw});
         }
     }
 }

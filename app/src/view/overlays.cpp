@@ -78,7 +78,7 @@ void drawFrusta(Viewer& viewer, const PictureArea& area)
     list.PushClipRect(imgui(area.least), imgui(end));
     for (std::uint32_t i = 0; i < plan.lights[light].view_count; ++i) {
         const View& view = plan.views[plan.lights[light].first_view + i];
-        for (const auto& [from, to] : edgesInPicture(clip_from_world, view.clip_from_world)) {
+        for (const auto& [from, to] : edgesInPicture(clip_from_world, view.projection.clip_from_world)) {
             list.AddLine(imgui(area.least + from * area.size), imgui(area.least + to * area.size),
                          IM_COL32(0, 0, 0, 160), 3.0F);
             list.AddLine(imgui(area.least + from * area.size), imgui(area.least + to * area.size),

@@ -111,7 +111,7 @@ struct Frame {
     /// number above 0: not known.
     double draw_ms_per_texel = 0.0;
     /// Whoever draws maps can clamp casters onto a near plane that they are before (Vulkan: depthClamp). False: near
-    /// planes lie before all that casts, at some precision of depth (View::clamp_near is false).
+    /// planes lie before all that casts, at some precision of depth (ViewProjection::clamp_near is false).
     bool clamps_depth = true;
 };
 

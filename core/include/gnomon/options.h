@@ -41,8 +41,8 @@ struct CascadeOptions {
     CascadePass pass = CascadePass::automatic; // no difference but in time
     /// With a bound on what a frame draws (ShadowOptions::draw_budget_texels, draw_budget_ms) and Partition::cascades:
     /// how much wider all maps but a light's first are made than what is seen of their slices, on each side: share of
-    /// the slice's width and depth, 0 .. 0.5. Then each of them takes turns by itself (View::waited). A map of 1 + 2
-    /// room times the width has texels as much larger. 0: a light's maps take turns together.
+    /// the slice's width and depth, 0 .. 0.5. Then each of them takes turns by itself (ViewContents::waited). A map of
+    /// 1 + 2 room times the width has texels as much larger. 0: a light's maps take turns together.
     double room = 0.0;
 
     /// Splits are given, not computed.

@@ -31,8 +31,9 @@ public:
     /// numbers are: what cannot be planned is said by the lights' outcomes (degenerate: not finite, without size, or so
     /// far apart that doubles cannot tell what lies between), and no light ruins another's maps.
     ///
-    /// The planner takes it that its plans are drawn, one after the other. A backend that compares View::presumes with
-    /// what it drew needs no more. One that doesn't says what it has not, or no longer: lost() or reset().
+    /// The planner takes it that its plans are drawn, one after the other. A backend that compares
+    /// ViewContents::presumes with what it drew needs no more. One that doesn't says what it has not, or no longer:
+    /// lost() or reset().
     ///
     /// Throws std::bad_alloc when memory runs out. The last plan is gone then, and the next call plans as if this frame
     /// had not been, as a rule after reset().

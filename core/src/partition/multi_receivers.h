@@ -35,7 +35,7 @@ struct ReceiverCone {
     bool held = false;        // it is of an earlier frame: neither its axis nor `texel` changes
     int promised = 0;         // with motion snap: the step (texelOfStep()) of `texel`
     int step = 0;             // and of the texels that it is drawn with, which are no finer
-    double opacity = 1.0;     // View::faded_in
+    double opacity = 1.0;     // ViewServes::faded_in
     std::uint32_t side = 0;   // of its map, texels
     double sum = 0.0;         // FacingTexels::sum_px
 };

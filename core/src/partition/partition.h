@@ -24,10 +24,11 @@ struct Slice {
     /// Side of the texels of a map that holds still and shows no more than what is seen, as LightRect has it. 0: the
     /// motion finds it.
     double texel = 0.0;
-    double faded_in = 1.0; // View::faded_in
-    bool layered = false;  // View::layered
-    double rim = 0.0;      // View::rim
-    /// A half space around the light's place along the axis, whole, as View::paraboloid has it: nothing is fitted.
+    double faded_in = 1.0; // ViewServes::faded_in
+    bool layered = false;  // ViewServes::layered
+    double rim = 0.0;      // ViewServes::rim
+    /// A half space around the light's place along the axis, whole, as ViewProjection::paraboloid has it: nothing is
+    /// fitted.
     bool paraboloid = false;
 };
 

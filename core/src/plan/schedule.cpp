@@ -14,12 +14,12 @@ View asDrawn(const View& before, std::uint32_t light)
 {
     View view = before;
     view.light = light;
-    view.presumes = view.makes;
-    view.kept_presumes = view.kept_makes;
-    view.redraw = false;
-    view.redraw_kept = false;
-    view.waited = before.waited + 1;
-    view.dirty = {};
+    view.contents.presumes = view.contents.makes;
+    view.contents.kept_presumes = view.contents.kept_makes;
+    view.contents.redraw = false;
+    view.contents.redraw_kept = false;
+    view.contents.waited = before.contents.waited + 1;
+    view.contents.dirty = {};
     return view;
 }
 
@@ -109,7 +109,7 @@ void Schedule::foreseeOf(Sights& sights, Frustums& frustums, const MapStore& sto
         // All of them, with what their maps hold.
         turn.keeps_views =
             !turn.by_cascade && turn.is_same && std::ranges::all_of(viewsOf(index), [&](const View& view) {
-                return view.gpu_cascade == kNoIndex && store.holds(view);
+                return view.projection.gpu_cascade == kNoIndex && store.holds(view);
             });
         turn.kept_back = turn.keeps_views && recipe.grows() && frustums.differs(index);
         // Most lights have as much to draw as in the frame before.
@@ -150,7 +150,7 @@ void Schedule::keepRoom(const Frustums& frustums, const Places& places)
         const auto isKept = [&](const View& view) {
             bool owns = false;
             for (std::uint32_t i = frustums.firstTenant(index); i < frustums.endTenant(index); ++i) {
-                owns = owns || store.owns(i, view.map);
+                owns = owns || store.owns(i, view.place.map);
             }
             return owns && store.holds(view);
         };
@@ -214,12 +214,12 @@ void Schedule::takeOf(const Results& results, std::uint32_t options)
 std::uint64_t Schedule::texelsDue(const Results& results, std::uint32_t index)
 {
     const View& view = results.plan.views[index];
-    if (view.gpu_cascade != kNoIndex) {
-        return std::uint64_t{view.tile.width} * view.tile.height;
+    if (view.projection.gpu_cascade != kNoIndex) {
+        return std::uint64_t{view.place.tile.width} * view.place.tile.height;
     }
     const std::span<const std::uint32_t> casters = results.plan.casters;
     return results.store.wouldDraw(view, *results.maps[index].place,
-                                   casters.subspan(view.first_caster, view.caster_count),
+                                   casters.subspan(view.casters.first, view.casters.count),
                                    *results.sights.frame().objects);
 }
 
@@ -247,9 +247,9 @@ void Schedule::putViewsBack(const Results& results)
                     addBack(frame, plan.views[i], plan.casters, results.maps[i]);
                     continue;
                 }
-                View kept = asDrawn(*viewBefore(results.store, index, plan.views[i].map), index);
-                kept.slice = plan.views[i].slice;
-                planned.waited = std::max(planned.waited, kept.waited);
+                View kept = asDrawn(*viewBefore(results.store, index, plan.views[i].place.map), index);
+                kept.serves.slice = plan.views[i].serves.slice;
+                planned.waited = std::max(planned.waited, kept.contents.waited);
                 addBack(frame, kept, casters_, {});
             }
         }
@@ -263,17 +263,17 @@ void Schedule::putViewsBack(const Results& results)
 /// Leaves out casters that are gone since: a backend may have to draw the map all the same.
 void Schedule::addBack(const Frame& frame, View view, std::span<const std::uint32_t> from, const ViewMap& map)
 {
-    const auto casters = from.subspan(view.first_caster, view.caster_count);
-    view.first_caster = static_cast<std::uint32_t>(next_casters_.size());
+    const auto casters = from.subspan(view.casters.first, view.casters.count);
+    view.casters.first = static_cast<std::uint32_t>(next_casters_.size());
     std::uint32_t still = 0;
     for (std::uint32_t i = 0; i < casters.size(); ++i) {
         if (frame.objects->alive(casters[i])) {
             next_casters_.push_back(casters[i]);
-            still += i < view.still_count ? 1 : 0;
+            still += i < view.casters.still ? 1 : 0;
         }
     }
-    view.still_count = still;
-    view.caster_count = static_cast<std::uint32_t>(next_casters_.size()) - view.first_caster;
+    view.casters.still = still;
+    view.casters.count = static_cast<std::uint32_t>(next_casters_.size()) - view.casters.first;
     next_views_.push_back(view);
     next_maps_.push_back(map);
 }
@@ -303,13 +303,14 @@ void Schedule::draw(const Results& results)
         if (map.place == nullptr) {
             continue; // of a light that waits
         }
-        if (view.gpu_cascade != kNoIndex) {
+        if (view.projection.gpu_cascade != kNoIndex) {
             results.store.drawAnew(view);
         } else if (map.read) {
             results.store.draw(view, *map.place,
-                               std::span(results.plan.casters).subspan(view.first_caster, view.caster_count), objects);
+                               std::span(results.plan.casters).subspan(view.casters.first, view.casters.count),
+                               objects);
         } else {
-            view.redraw = false;
+            view.contents.redraw = false;
         }
     }
 }
@@ -319,7 +320,7 @@ void Schedule::report(Plan& plan)
     for (const View& view : plan.views) {
         MapPages& pages = plan.pages[plan.lights[view.light].options];
         pages.drawn_texels += texelsToDraw(view);
-        pages.waiting_maps += view.waited > 0 ? 1 : 0;
+        pages.waiting_maps += view.contents.waited > 0 ? 1 : 0;
     }
     for (const LightPlan& light : plan.lights) {
         MapPages& pages = plan.pages[light.options];

@@ -60,7 +60,7 @@ const View* Schedule::viewBefore(const MapStore& store, std::uint32_t light, con
         return nullptr;
     }
     const std::span<const View> views = viewsOf(light);
-    const auto found = std::ranges::find_if(views, [&](const View& view) { return view.map == map; });
+    const auto found = std::ranges::find_if(views, [&](const View& view) { return view.place.map == map; });
     return found != views.end() && store.holds(*found) ? &*found : nullptr;
 }
 
@@ -72,14 +72,14 @@ void Schedule::claimByCascade(const Results& results, std::uint32_t index)
     const std::span<const SightPoint> points = results.sights.setups()[planned.options].sight.points();
     for (std::uint32_t i = planned.first_view; i < planned.first_view + planned.view_count; ++i) {
         const View& view = results.plan.views[i];
-        const View* const before = viewBefore(results.store, index, view.map);
+        const View* const before = viewBefore(results.store, index, view.place.map);
         const auto within = std::ranges::count_if(points, [&](const SightPoint& point) {
-            return point.depth_m >= view.slice.begin_m && point.depth_m <= view.slice.end_m;
+            return point.depth_m >= view.serves.slice.begin_m && point.depth_m <= view.serves.slice.end_m;
         });
         const double part =
             std::max(static_cast<double>(within) / std::max(static_cast<double>(points.size()), 1.0), kLeastPart);
         claims_.push_back({index, lights_[index].share * part, texelsDue(results, i),
-                           before != nullptr ? before->waited : 0, results.maps[i].may_wait, false, i});
+                           before != nullptr ? before->contents.waited : 0, results.maps[i].may_wait, false, i});
     }
 }
 
@@ -88,7 +88,7 @@ void Schedule::noteGrounds(const Results& results)
 {
     for (std::size_t i = 0; i < results.plan.views.size(); ++i) {
         if (results.maps[i].own_turn) {
-            const std::size_t map = results.plan.views[i].map.index;
+            const std::size_t map = results.plan.views[i].place.map.index;
             std::swap(grounds_[map], next_grounds_[map]);
         }
     }

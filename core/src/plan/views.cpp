@@ -122,8 +122,8 @@ Outcome Views::fitFrustum(const Results& from, const Stand& stand, const LightFr
     }
     View fitted;
     fitted.light = stand.light;
-    fitted.sun = stand.sun;
-    fitted.grid_move_texels = on_gpu ? grid_move : glm::dvec2(0.0);
+    fitted.serves.sun = stand.sun;
+    fitted.projection.grid_move_texels = on_gpu ? grid_move : glm::dvec2(0.0);
     const Outcome outcome =
         planner_.plan({from.sights.frame(), recipe, setup.camera, frustum.receivers,
                        recipe.steady() ? from.sights.allReceivers() : frustum.receivers, stand.at, slice,
@@ -138,8 +138,9 @@ Outcome Views::fitFrustum(const Results& from, const Stand& stand, const LightFr
         return outcome;
     }
     // A base map: one view for each cascade that the GPU will fit to a part of it.
-    for (fitted.gpu_cascade = 0; fitted.gpu_cascade < frustum.gpu_cascades; ++fitted.gpu_cascade) {
-        addView(from, stand, store.placeOf(frustum.tenant, stand.slot, fitted.gpu_cascade), fitted);
+    for (fitted.projection.gpu_cascade = 0; fitted.projection.gpu_cascade < frustum.gpu_cascades;
+         ++fitted.projection.gpu_cascade) {
+        addView(from, stand, store.placeOf(frustum.tenant, stand.slot, fitted.projection.gpu_cascade), fitted);
     }
     return outcome;
 }
@@ -176,7 +177,7 @@ Outcome Views::fitWide(const Results& from, const Stand& stand, const LightFrust
     if (!outcome.hasMap()) {
         return outcome;
     }
-    fitted.slice = frustum.slice.depth; // pixels choose by what is seen
+    fitted.serves.slice = frustum.slice.depth; // pixels choose by what is seen
     addView(from, stand, place, fitted);
     maps_.back().own_turn = true;
     maps_.back().may_wait = turn.may_wait;
@@ -187,10 +188,10 @@ Outcome Views::fitWide(const Results& from, const Stand& stand, const LightFrust
 void Views::addView(const Results& from, const Stand& stand, const MapPlace& place, const View& fitted)
 {
     View& view = from.plan.views.emplace_back(fitted);
-    view.map = place.map;
-    view.tile = place.tile;
-    view.part = place.part;
-    view.ids_key = idsKey(from.plan, view);
+    view.place.map = place.map;
+    view.place.tile = place.tile;
+    view.place.part = place.part;
+    view.contents.ids_key = idsKey(from.plan, view);
     maps_.push_back({&place, stand.read});
 }
 

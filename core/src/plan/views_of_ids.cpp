@@ -60,8 +60,8 @@ std::uint64_t Views::idsKey(const Plan& plan, const View& view) const
         return 0;
     }
     std::uint64_t key = 14695981039346656037ULL;
-    for (std::uint32_t i = 0; i < view.caster_count; ++i) {
-        const std::uint32_t object = plan.casters[view.first_caster + i];
+    for (std::uint32_t i = 0; i < view.casters.count; ++i) {
+        const std::uint32_t object = plan.casters[view.casters.first + i];
         const auto add = [&](std::uint32_t number) {
             key = (key ^ number) * 1099511628211ULL;
         };

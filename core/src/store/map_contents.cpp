@@ -11,7 +11,9 @@ namespace gnomon {
 
 MapProjection projectionOf(const View& view)
 {
-    return {view.clip_from_world, view.metric.metric_ws, view.orthographic, view.clamp_near, view.ids_key, view.layers};
+    return {view.projection.clip_from_world, view.projection.metric.metric_ws,
+            view.projection.orthographic,    view.projection.clamp_near,
+            view.contents.ids_key,           view.serves.layers};
 }
 
 bool MapContents::show(const MapProjection& now, std::span<const std::uint32_t> casters,
@@ -70,18 +72,18 @@ TexelRect texelsOf(const View& view, const Aabb& box_ws)
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     glm::dvec2 low(kInfinity);
     glm::dvec2 high(-kInfinity);
-    if (view.paraboloid) { // where a box's edges are bent
-        return {0, 0, view.tile.width, view.tile.height};
+    if (view.projection.paraboloid) { // where a box's edges are bent
+        return {0, 0, view.place.tile.width, view.place.tile.height};
     }
     for (int i = 0; i < 8; ++i) {
-        const glm::dvec4 c = view.clip_from_world * glm::dvec4(glm::dvec3(box_ws.corner(i)), 1.0);
+        const glm::dvec4 c = view.projection.clip_from_world * glm::dvec4(glm::dvec3(box_ws.corner(i)), 1.0);
         if (!(c.w > 0.0)) {
-            return {0, 0, view.tile.width, view.tile.height};
+            return {0, 0, view.place.tile.width, view.place.tile.height};
         }
         low = glm::min(low, glm::dvec2(c) / c.w);
         high = glm::max(high, glm::dvec2(c) / c.w);
     }
-    const glm::dvec2 size(view.tile.width, view.tile.height);
+    const glm::dvec2 size(view.place.tile.width, view.place.tile.height);
     low = glm::clamp(glm::floor((low * 0.5 + 0.5) * size) - 1.0, glm::dvec2(0.0), size);
     high = glm::clamp(glm::ceil((high * 0.5 + 0.5) * size) + 1.0, glm::dvec2(0.0), size);
     if (!(low.x < high.x && low.y < high.y)) {

@@ -241,14 +241,14 @@ void MapStore::draw(View& view, const MapPlace& place, std::span<std::uint32_t> 
     const Due due = dueOf(view, place, casters, objects);
     Map& map = maps_[place.map.index];
     const MapProjection projection = projectionOf(view);
-    if (view.kept_layer != kNoIndex) {
+    if (view.contents.kept_layer != kNoIndex) {
         Map& kept = maps_[place.kept_map.index];
-        if (view.redraw_kept) {
+        if (view.contents.redraw_kept) {
             fill(kept, projection, still_, objects);
         }
-        view.kept_makes = kept.number;
+        view.contents.kept_makes = kept.number;
         std::ranges::copy(still_, casters.begin());
-        std::ranges::transform(moving_, casters.begin() + view.still_count,
+        std::ranges::transform(moving_, casters.begin() + view.casters.still,
                                [](const Mover& mover) { return mover.object; });
     }
     if (due.map) {
@@ -257,14 +257,14 @@ void MapStore::draw(View& view, const MapPlace& place, std::span<std::uint32_t> 
             map.contents.moving.assign(moving_.begin(), moving_.end());
         }
     }
-    view.makes = map.number;
-    view.redraw = view.makes != view.presumes;
+    view.contents.makes = map.number;
+    view.contents.redraw = view.contents.makes != view.contents.presumes;
 }
 
 std::uint64_t MapStore::wouldDraw(View view, const MapPlace& place, std::span<const std::uint32_t> casters,
                                   const ObjectSet& objects)
 {
-    view.redraw = dueOf(view, place, casters, objects).map;
+    view.contents.redraw = dueOf(view, place, casters, objects).map;
     return texelsToDraw(view);
 }
 
@@ -274,7 +274,8 @@ bool MapStore::holds(const View& view) const
         return content != 0 && id.index < maps_.size() && maps_[id.index].generation == id.generation &&
                maps_[id.index].number == content;
     };
-    return shows(view.map, view.makes) && (view.kept_layer == kNoIndex || shows(view.kept_map, view.kept_makes));
+    return shows(view.place.map, view.contents.makes) &&
+           (view.contents.kept_layer == kNoIndex || shows(view.contents.kept_map, view.contents.kept_makes));
 }
 
 bool MapStore::owns(std::size_t light, const MapId& map) const
@@ -285,10 +286,10 @@ bool MapStore::owns(std::size_t light, const MapId& map) const
 
 void MapStore::drawAnew(View& view)
 {
-    maps_[view.map.index].number = 0;
-    view.presumes = 0;
-    view.makes = next_number_++;
-    view.redraw = true;
+    maps_[view.place.map.index].number = 0;
+    view.contents.presumes = 0;
+    view.contents.makes = next_number_++;
+    view.contents.redraw = true;
 }
 
 /// Compares what a map holds with what it should. Says so in the view, but for what it will hold; `still_` and
@@ -302,7 +303,7 @@ MapStore::Due MapStore::dueOf(View& view, const MapPlace& place, std::span<const
     const Map& map = maps_[place.map.index];
     const bool holds = map.number != 0 && map.contents.show(projectionOf(view), casters, objects.allChanges()) &&
                        map.contents.moving.empty();
-    view.presumes = holds ? map.number : 0;
+    view.contents.presumes = holds ? map.number : 0;
     return {!holds, false};
 }
 
@@ -325,7 +326,7 @@ bool MapStore::dueOverKept(View& view, const MapPlace& place, std::span<const st
 {
     static const MapContents kNothing;
     split(casters, objects);
-    view.still_count = static_cast<std::uint32_t>(still_.size());
+    view.casters.still = static_cast<std::uint32_t>(still_.size());
     const Map& map = maps_[place.map.index];
     const Map& kept = maps_[place.kept_map.index];
     const MapProjection projection = projectionOf(view);
@@ -335,15 +336,16 @@ bool MapStore::dueOverKept(View& view, const MapPlace& place, std::span<const st
     const bool moves = std::ranges::any_of(moving_, [](const Mover& mover) { return !mover.texels.empty(); });
     const bool restores = map_holds && map.contents.showMovers() && kept_holds;
     const bool draws = !map_holds || !changed.empty();
-    view.presumes = map_holds ? map.number : 0;
+    view.contents.presumes = map_holds ? map.number : 0;
     // A copy that was lost comes back with the next drawing.
     if ((moves || restores) && (draws || kept_holds)) {
-        view.kept_layer = place.kept_layer;
-        view.kept_map = place.kept_map;
-        view.kept_presumes = kept_holds ? kept.number : 0;
-        view.redraw_kept = draws && !kept_holds;
+        view.contents.kept_layer = place.kept_layer;
+        view.contents.kept_map = place.kept_map;
+        view.contents.kept_presumes = kept_holds ? kept.number : 0;
+        view.contents.redraw_kept = draws && !kept_holds;
         if (draws) {
-            view.dirty = map_holds && kept_holds ? changed : TexelRect{0, 0, view.tile.width, view.tile.height};
+            view.contents.dirty =
+                map_holds && kept_holds ? changed : TexelRect{0, 0, view.place.tile.width, view.place.tile.height};
         }
     }
     return draws;

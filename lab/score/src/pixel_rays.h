@@ -88,18 +88,18 @@ inline std::optional<glm::dvec2> texelOf(const View& view, const glm::dvec3& poi
     if (!place) {
         return std::nullopt;
     }
-    return (*place * 0.5 + 0.5) * glm::dvec2(view.tile.width, view.tile.height);
+    return (*place * 0.5 + 0.5) * glm::dvec2(view.place.tile.width, view.place.tile.height);
 }
 
 /// Does the mask take this view for a receiver at a point, whose place in the map is `texel`?
 inline bool serves(const View& view, const glm::dvec3& point_ws, const glm::dvec2& texel, double reach_texels)
 {
-    if (!view.slice.holds(point_ws) || !view.sector.holds(point_ws)) {
+    if (!view.serves.slice.holds(point_ws) || !view.serves.sector.holds(point_ws)) {
         return false;
     }
     const double margin = tileMarginTexels(reach_texels);
-    return texel.x >= margin && texel.y >= margin && texel.x <= view.tile.width - margin &&
-           texel.y <= view.tile.height - margin;
+    return texel.x >= margin && texel.y >= margin && texel.x <= view.place.tile.width - margin &&
+           texel.y <= view.place.tile.height - margin;
 }
 
 /// Unit, from a point to the light's centre.

@@ -94,7 +94,7 @@ std::uint64_t texelsRead(const Sight& seen, const Counted& counted, std::span<co
     const PixelRays rays(seen);
     std::vector<ReadTexels> read;
     for (const View& view : views) {
-        read.emplace_back(view.tile);
+        read.emplace_back(view.place.tile);
     }
     for (std::uint32_t y = 0; y < counted.height && !views.empty(); ++y) {
         for (std::uint32_t x = 0; x < counted.width; ++x) {
@@ -104,8 +104,8 @@ std::uint64_t texelsRead(const Sight& seen, const Counted& counted, std::span<co
             bool found = false;
             for (std::size_t v = 0; surface && v < views.size(); ++v) {
                 const auto texel = texelOf(views[v], surface->point_ws);
-                const bool serving =
-                    !found || views[v].slice.blend_m > 0.0 || views[v].faded_in < 1.0 || views[v].rim > 0.0;
+                const bool serving = !found || views[v].serves.slice.blend_m > 0.0 || views[v].serves.faded_in < 1.0 ||
+                                     views[v].serves.rim > 0.0;
                 if (serving && texel && serves(views[v], surface->point_ws, *texel, reach_texels)) {
                     read[v].add(*texel, reach_texels);
                     found = true;
@@ -131,7 +131,7 @@ TexelUse texelUse(const Sight& seen, const Counted& counted, const Plan& plan, s
     for (const SunPosition sun : {SunPosition::only, SunPosition::earlier, SunPosition::later}) {
         const std::span<const View> views = viewsOf(plan, light, sun);
         for (const View& view : views) {
-            use.held += std::uint64_t{view.tile.width} * view.tile.height;
+            use.held += std::uint64_t{view.place.tile.width} * view.place.tile.height;
         }
         use.read += texelsRead(seen, counted, views, reach_texels,
                                [&](std::uint32_t x) { return isRead(steps, sun, (x + 0.5) / counted.width); });

@@ -30,8 +30,8 @@ std::uint64_t texelsDrawn(const Plan& plan, const TrafficOptions& options)
 {
     std::uint64_t texels = 0;
     for (const View& view : plan.views) {
-        const bool whole = options.redraws_all || (view.redraw && view.kept_layer == kNoIndex);
-        texels += whole ? texelsOf(view.tile, options.mip_levels).all : texelsRendered(view, false);
+        const bool whole = options.redraws_all || (view.contents.redraw && view.contents.kept_layer == kNoIndex);
+        texels += whole ? texelsOf(view.place.tile, options.mip_levels).all : texelsRendered(view, false);
     }
     return texels * options.image_layers;
 }
@@ -58,10 +58,10 @@ PassLeast leastOfFilter(const Plan& plan, const TrafficOptions& options)
     PassLeast least;
     const std::uint64_t texel_bytes = std::uint64_t{texelBytes(options.format)} * options.image_layers;
     for (const View& view : plan.views) {
-        if (!options.redraws_all && !view.redraw) {
+        if (!options.redraws_all && !view.contents.redraw) {
             continue;
         }
-        const LevelTexels texels = texelsOf(view.tile, options.mip_levels);
+        const LevelTexels texels = texelsOf(view.place.tile, options.mip_levels);
         const std::uint64_t made = texels.finest * (options.blurred ? 5 : 1); // and twice read and written again
         const std::uint64_t averaged = (texels.all - texels.finest) + (texels.all - texels.coarsest);
         least.texels += texels.finest;
@@ -81,12 +81,12 @@ bool halvesMask(const Plan& plan)
 
 std::uint64_t texelsRendered(const View& view, bool redraws_all)
 {
-    const std::uint64_t all = std::uint64_t{view.tile.width} * view.tile.height;
-    if (view.kept_layer == kNoIndex) {
-        return view.redraw || redraws_all ? all : 0;
+    const std::uint64_t all = std::uint64_t{view.place.tile.width} * view.place.tile.height;
+    if (view.contents.kept_layer == kNoIndex) {
+        return view.contents.redraw || redraws_all ? all : 0;
     }
-    const std::uint64_t dirty = std::uint64_t{view.dirty.width} * view.dirty.height;
-    return (view.redraw_kept || redraws_all ? all : 0) + (redraws_all ? all : dirty);
+    const std::uint64_t dirty = std::uint64_t{view.contents.dirty.width} * view.contents.dirty.height;
+    return (view.contents.redraw_kept || redraws_all ? all : 0) + (redraws_all ? all : dirty);
 }
 
 std::uint32_t texelBytes(MapFormat format)

@@ -25,12 +25,12 @@ void shareOut(std::span<const View> views, const glm::dvec3& point_ws, double re
         }
         // The first that serves the point counts for all of it, and each after it for what has faded over so far.
         double share = 1.0;
-        if (view.layered) {
-            const double counts = std::min(left, std::max(view.opacityAt(point_ws), 1e-4));
+        if (view.serves.layered) {
+            const double counts = std::min(left, std::max(view.serves.opacityAt(point_ws), 1e-4));
             left -= counts;
             share = counts > 0.0 ? counts / (1.0 - left) : 0.0;
         } else if (found) {
-            share = view.shareAt(view.slice.depthAt(point_ws));
+            share = view.serves.shareAt(view.serves.slice.depthAt(point_ws));
         }
         for (std::size_t before = 0; before < i; ++before) {
             shares[before] *= static_cast<float>(1.0 - share);
@@ -48,8 +48,9 @@ ImageF viewShares(const Sight& seen, const Plan& plan, std::uint32_t light, doub
     const PixelRays rays(seen);
     const std::span<const View> views = viewsOf(plan, light);
     const SunSteps& steps = plan.lights[light].steps;
-    const auto later = std::find_if(views.begin(), views.end(),
-                                    [&](const View& view) { return steps.paired && view.sun == SunPosition::later; });
+    const auto later = std::find_if(views.begin(), views.end(), [&](const View& view) {
+        return steps.paired && view.serves.sun == SunPosition::later;
+    });
     const auto earlier_count = static_cast<std::size_t>(later - views.begin());
     ImageF shares(seen.depth.width, seen.depth.height, std::max<std::uint32_t>(1, std::uint32_t(views.size())));
     for (std::uint32_t y = 0; y < shares.height; ++y) {

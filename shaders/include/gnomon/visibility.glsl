@@ -9,7 +9,7 @@
 //                   which the options must have. Without it all of them are, and GpuRule says which, or the constant of
 //                   technique_constants.glsl
 //   GNOMON_FILTERS  in its place: those filters are compiled whose bits (1 << GNOMON_FILTER_PCF) it has
-//   GNOMON_ORTHOGRAPHIC_ONLY  true, or a constant that says so: all views are orthographic (View::orthographic), which
+//   GNOMON_ORTHOGRAPHIC_ONLY  true, or a constant that says so: all views are orthographic (ViewProjection::orthographic), which
 //                   costs less
 //   GNOMON_TINTS    true, or a constant that says so: blended casters tint the light, which takes a seventh binding
 //   GNOMON_LAYERED  true, or a constant that says so: options may have MultiDivide::receivers. Without it frustums that

@@ -120,10 +120,11 @@ TEST(ViewShares, SlicesFadeOverIntoEachOther)
             const float* const s = shares.pixel(x, y);
             EXPECT_NEAR(s[0] + s[1] + s[2], 1.0, 1e-6);
             const double first =
-                1.0 - std::clamp((depth_m - plan.views[1].slice.begin_m) / plan.views[1].slice.blend_m, 0.0, 1.0);
+                1.0 - std::clamp((depth_m - plan.views[1].serves.slice.begin_m) / plan.views[1].serves.slice.blend_m,
+                                 0.0, 1.0);
             EXPECT_NEAR(s[0], first, 1e-3) << depth_m;
             mixed += first > 0.0 && first < 1.0 ? 1 : 0;
-            EXPECT_EQ(s[2] > 0.0F, depth_m > plan.views[2].slice.begin_m);
+            EXPECT_EQ(s[2] > 0.0F, depth_m > plan.views[2].serves.slice.begin_m);
         }
     }
     EXPECT_GT(mixed, 0);
@@ -147,8 +148,8 @@ TEST(ViewShares, ASunsTwoPositionsShareByTheirWeights)
     const Ground ground;
     Plan plan = ground.plan({});
     plan.views.push_back(plan.views[0]);
-    plan.views[0].sun = SunPosition::earlier;
-    plan.views[1].sun = SunPosition::later;
+    plan.views[0].serves.sun = SunPosition::earlier;
+    plan.views[1].serves.sun = SunPosition::later;
     plan.lights[0].view_count = 2;
     SunSteps& steps = plan.lights[0].steps;
     steps.stepping = steps.paired = true;

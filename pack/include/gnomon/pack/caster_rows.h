@@ -20,7 +20,7 @@ struct Rows3x4 {
 };
 
 /// Rows of a view that an instance brings: x, y and the metric; of any other view x, y, z, w and the metric. Of a
-/// paraboloid only the last number of w and of the metric counts (View::paraboloid).
+/// paraboloid only the last number of w and of the metric counts (ViewProjection::paraboloid).
 [[nodiscard]] constexpr std::uint32_t casterRowCount(bool orthographic)
 {
     return orthographic ? 3 : 5;

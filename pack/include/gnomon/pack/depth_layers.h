@@ -26,8 +26,8 @@ struct DepthLayer {
 [[nodiscard]] GNOMON_API std::vector<DepthLayer> describeLayers(const shared::GpuDepthLayers& layers,
                                                                 const MomentOptions& options);
 
-/// LayerPlacement::world: the layers of View::layers, which change with the view's depths. As long as its map is not
-/// drawn again, they do not.
+/// LayerPlacement::world: the layers of ViewServes::layers, which change with the view's depths. As long as its map is
+/// not drawn again, they do not.
 [[nodiscard]] GNOMON_API shared::GpuDepthLayers worldDepthLayers(const View& view, const MomentOptions& options);
 
 /// What a buffer of layers is filled with. Where they depend on what is drawn, it is where they start.

@@ -16,8 +16,8 @@
 
 namespace gnomon::pack {
 
-/// Bound on the error of a depth that such a map stores, in units of View::metric: storage and the single precision
-/// that led to it. The automatic bias takes it into account.
+/// Bound on the error of a depth that such a map stores, in units of ViewProjection::metric: storage and the single
+/// precision that led to it. The automatic bias takes it into account.
 [[nodiscard]] GNOMON_API float depthQuantum(MapFormat format);
 /// How a texel of a map holds depths: a kDepth constant of gnomon/shared/paired_depth.h. That of a filterable map holds
 /// other things: kDepthAlone.

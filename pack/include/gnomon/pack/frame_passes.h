@@ -12,7 +12,7 @@ namespace gnomon::pack {
 
 /// What is to be done.
 enum class FramePassKind : std::uint8_t {
-    bounds,  // fit views with View::gpu_cascade to the camera's depth: cascade_lights.h
+    bounds,  // fit views with ViewProjection::gpu_cascade to the camera's depth: cascade_lights.h
     maps,    // draw the maps of `options`, if there are any; of a filterable filter also make moments, blur, mip levels
     mask,    // listMaskDraws(), those of lights that halvesMask() to an image of half the size
     spread,  // of these lights: from that image over the mask, and what it leaves drawn as listMaskDraws() says

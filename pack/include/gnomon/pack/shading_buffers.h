@@ -30,8 +30,8 @@ GNOMON_API void fillConstants(const Plan& plan, std::uint32_t options, glm::uvec
 /// none. One with SunSteps::alternate has the views of SunSteps::read alone, whose maps this frame draws. Throws
 /// Error where there is no room for all, or Plan::made_for has other lights.
 GNOMON_API void fillLights(const Plan& plan, std::span<shared::GpuLight> lights);
-/// View i of the plan goes to views[i]. `maps`: by options. Views with View::gpu_cascade are as their base map until
-/// they are completed on the GPU: slice.w, which is 0 for others, is then one past the view's number
+/// View i of the plan goes to views[i]. `maps`: by options. Views with ViewProjection::gpu_cascade are as their base
+/// map until they are completed on the GPU: slice.w, which is 0 for others, is then one past the view's number
 /// (shaders/passes/cascade_constants.comp). Up to kFewViews, what is beyond the plan's views serves no depth.
 /// Throws Error where there is no room for all, or there are fewer maps than options.
 GNOMON_API void fillViews(const Plan& plan, std::span<const MapImage> maps, std::span<shared::GpuView> views);

@@ -106,7 +106,7 @@ vec2 discPoint(int i)
 #define GNOMON_KNOWN_VIEW GNOMON_SLICES_ALONE
 #endif
 #include "visibility.glsl"
-// A pass may define GNOMON_LAYERED, whether views may be View::layered ones: a constant.
+// A pass may define GNOMON_LAYERED, whether views may be ViewServes::layered ones: a constant.
 #ifndef GNOMON_LAYERED
 #define GNOMON_LAYERED false
 #endif

@@ -156,13 +156,13 @@ GN_FN real viewShare(GpuView view, real depth)
     return clamp((depth - real(view.slice.x)) * real(view.slice.z), real(0.0), real(1.0)) * real(view.slice.w);
 }
 
-// Is it one of several views that overlap: View::layered?
+// Is it one of several views that overlap: ViewServes::layered?
 GN_FN bool isLayered(GpuView view)
 {
     return view.plane_x.w > 0.0 && !(GNOMON_PARABOLOID && view.plane_y.w > 0.0);
 }
 
-// View::opacityAt(), but never nothing, so that a view that is alone counts for all.
+// ViewServes::opacityAt(), but never nothing, so that a view that is alone counts for all.
 GN_FN real viewOpacity(GpuView view, real3 p)
 {
     real across = max(abs(dotRow(real4(view.sector_x), p)), abs(dotRow(real4(view.sector_y), p)));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers of gnomon::Filter. Macros, because the preprocessor chooses by them; choice_numbers.h has them as constants.
+// The numbers of gnomon::Filter. Macros, because the preprocessor chooses by them; choice_numbers.h has them as
+// constants.
 #ifndef GNOMON_FILTER_NUMBERS_H
 #define GNOMON_FILTER_NUMBERS_H
 #define GNOMON_FILTER_HARD 0

@@ -41,8 +41,10 @@ struct GpuCascadeLight {
     GN_UVEC4
     cascades; // x: how many, y: first view of the plan, z: 1 for ends that are given, w: 1 for a perspective camera
     GN_VEC4 ends[2]; // given: where all cascades but the last end, m
-    GN_VEC4 texel;   // x, y: View::texel_xy_m of the base map, z, w: how far each cascade is moved, of its own [-1, 1]
-    GN_VEC4 room;    // x, y: on all sides of a pixel's place, for View::light_reach; z: 1: of a place where w is 1
+    GN_VEC4 texel; // x, y: ViewProjection::texel_xy_m of the base map, z, w: how far each cascade is moved, of its own
+                   // [-1, 1]
+    GN_VEC4
+        room; // x, y: on all sides of a pixel's place, for ViewProjection::light_reach; z: 1: of a place where w is 1
 };
 
 // Found so far, as whole numbers that only grow, so that the order in which pixels come does not matter: greatestKey()
@@ -54,7 +56,7 @@ struct GpuCascadeKeys {
 // What was found for a view.
 struct GpuFittedView {
     GN_VEC4 place; // x, y: scale, z, w: centre; see casterPlaced()
-    GN_VEC4 slice; // x: begin, y: end, z: one over the width of the blend (0: none), w: View::texel_m
+    GN_VEC4 slice; // x: begin, y: end, z: one over the width of the blend (0: none), w: ViewProjection::texel_m
     GN_VEC4 seen;  // of the base map, what the slice's pixels lie in: low x, y, high x, y; low > high: none
 };
 

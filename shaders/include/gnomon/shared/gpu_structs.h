@@ -35,7 +35,8 @@ struct GpuView {
     GN_VEC4 scale; // x: texel_m, y: range_m, z: layer, w: part of a texel with two maps (paired_depth.h): 0 or 1
     // Of an orthographic view, see MapRows. Of a paraboloid x, y and w take an eye-relative point to q (paraboloid.h),
     // metric.w is minus near in lengths of far - near, plane_x is `places` of paraboloidRows(), and plane_y.w is 1; of
-    // others that is 0. Of View::layered ones plane_x.w is one over View::rim, of others that are no paraboloids 0
+    // others that is 0. Of ViewServes::layered ones plane_x.w is one over ViewServes::rim, of others that are no
+    // paraboloids 0
     GN_VEC4 plane_x;
     GN_VEC4 plane_y;
     GN_VEC4 plane_w;

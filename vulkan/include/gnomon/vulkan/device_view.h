@@ -61,7 +61,7 @@ struct ShaderHook {
 /// device can, and a host turns off what it has no use for. optionalParts() says what is done where one is off.
 struct FeatureUses {
     bool indirect_draws = false; // CasterDrawer: few commands for many casters
-    bool depth_clamp = false;    // casters before a map's near plane (View::clamp_near); filter volumes
+    bool depth_clamp = false;    // casters before a map's near plane (ViewProjection::clamp_near); filter volumes
     bool filterable = false;     // maps of vsm, lvsm, esm, evsm, msm
     bool sample_metric = false;  // depths of each sample in such maps of perspective views
     bool layered = false;        // CascadePass::layered

@@ -143,7 +143,7 @@ struct MapPassFormats {
     /// A map of tints: blended casters alone, and no others. Red, green and blue multiply what is there, and of
     /// alpha, which is the metric, the lesser one stays. Depth is tested and not written; gl_FragDepth = metric.
     bool blended = false;
-    /// View::paraboloid: vertices are placed by gnomonCasterParaboloid(), and fragments have the metric of
+    /// ViewProjection::paraboloid: vertices are placed by gnomonCasterParaboloid(), and fragments have the metric of
     /// gnomonCasterRadial() or are discarded (caster.glsl). It goes to gl_FragDepth beside a colour attachment, too.
     bool paraboloid = false;
     /// Filters id and depth-id: `colour` holds gnomonCasterIdTexel() of what pack::casterIdOf() says of the object.
@@ -164,7 +164,7 @@ struct MapPassFormats {
 /// not end rendering.
 struct MapPass {
     VkCommandBuffer commands = VK_NULL_HANDLE; // to record into
-    MapPassFormats formats;                    // mapFormats() of the light's options and View::orthographic
+    MapPassFormats formats;                    // mapFormats() of the light's options and ViewProjection::orthographic
     const Plan* plan = nullptr;                // never null
     const View* view = nullptr;                // the first one that is drawn; never null
     std::uint32_t view_index = 0;              // its place in Plan::views
@@ -179,36 +179,36 @@ struct MapPass {
     glm::mat4 clip_from_world{1.0F}; // the view's, for vertices in world space
     /// d' = dot(metric_ws, (p, 1)); see gnomonCasterMetric() in gnomon/caster.glsl. Of a paraboloid w alone counts.
     glm::vec4 metric_ws{0.0F};
-    /// A view with View::gpu_cascade: clip_from_world is its base map's, and a vec4 at this offset, which the GPU has
-    /// written, says which part of it the view shows: gnomonCasterPlaced() in gnomon/caster.glsl. A vertex buffer (to
-    /// be bound with stride 0, at the rate of instances) and a storage buffer. VK_NULL_HANDLE: none.
+    /// A view with ViewProjection::gpu_cascade: clip_from_world is its base map's, and a vec4 at this offset, which the
+    /// GPU has written, says which part of it the view shows: gnomonCasterPlaced() in gnomon/caster.glsl. A vertex
+    /// buffer (to be bound with stride 0, at the rate of instances) and a storage buffer. VK_NULL_HANDLE: none.
     VkBuffer placement = VK_NULL_HANDLE;
     VkDeviceSize placement_offset = 0; // bytes
     /// With MapPassFormats::behind_first: a set with one COMBINED_IMAGE_SAMPLER at binding 0, FRAGMENT stage, whose
     /// texel at gl_FragCoord.xy is the depth of the first surface, and what that depth may be rounded by.
-    /// With MapPassFormats::fins such a set with the maps, a 2D array whose layer View::tile says, and what their
+    /// With MapPassFormats::fins such a set with the maps, a 2D array whose layer ViewPlace::tile says, and what their
     /// depths may be off by.
     VkDescriptorSet first_surface = VK_NULL_HANDLE;
     float first_quantum = 0.0F; // in depths of the map
     /// How many views this pass draws: 1, or with CascadePass::layered several, from view_index on. Then what casts in
     /// view i of them, castersOf(i), is to be drawn to layer i (gl_Layer) with that view's own clip_from_world and
     /// metric from `plan`; casters, clip_from_world, metric_ws and `view` are those of the first. With
-    /// View::gpu_cascade each has a placement of its own, kPlacementStride bytes after the one before it.
+    /// ViewProjection::gpu_cascade each has a placement of its own, kPlacementStride bytes after the one before it.
     std::uint32_t view_count = 1;
 
     /// Of view i of several.
     [[nodiscard]] std::span<const std::uint32_t> castersOf(std::uint32_t i) const
     {
         const View& one = plan->views[view_index + i];
-        return std::span(plan->casters).subspan(one.first_caster, one.caster_count);
+        return std::span(plan->casters).subspan(one.casters.first, one.casters.count);
     }
 };
 inline constexpr VkDeviceSize kPlacementStride = 48; // bytes
 /// Draws one map's casters.
 using DrawCasters = std::function<void(const MapPass&)>;
 
-/// What views of such options are drawn in: of View::orthographic or not. Of CasterFaces::midpoint the first of a map's
-/// two passes; the second has behind_first, too.
+/// What views of such options are drawn in: of ViewProjection::orthographic or not. Of CasterFaces::midpoint the first
+/// of a map's two passes; the second has behind_first, too.
 [[nodiscard]] GNOMON_API MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic);
 
 /// An image of the renderer's. Holds until the next prepare() that says it made others.
@@ -320,14 +320,15 @@ public:
     /// What was recorded last is never submitted: the next prepare() begins as a new renderer does.
     void reset();
 
-    /// To be called before recordMaps() for a plan that has views with View::gpu_cascade (Error there); does nothing
-    /// for others. Fits these views to the camera's depth buffer: of `inputs` depth and, if given, object ids, whose
-    /// writes the host has made visible to COMPUTE_SHADER reads too. Nothing waits for the CPU.
+    /// To be called before recordMaps() for a plan that has views with ViewProjection::gpu_cascade (Error there); does
+    /// nothing for others. Fits these views to the camera's depth buffer: of `inputs` depth and, if given, object ids,
+    /// whose writes the host has made visible to COMPUTE_SHADER reads too. Nothing waits for the CPU.
     void recordBounds(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
                       Profiler* profiler = nullptr);
-    /// Records the maps that do not hold what their views want: what View::redraw and View::dirty say, and all of those
-    /// whose texels are not what View::presumes says, because a frame was planned and not recorded, say. `slot` in
-    /// [0, frames_in_flight): the caller knows that the GPU has finished the last frame recorded with it.
+    /// Records the maps that do not hold what their views want: what ViewContents::redraw and ViewContents::dirty say,
+    /// and all of those whose texels are not what ViewContents::presumes says, because a frame was planned and not
+    /// recorded, say. `slot` in [0, frames_in_flight): the caller knows that the GPU has finished the last frame
+    /// recorded with it.
     void recordMaps(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const DrawCasters& draw,
                     Profiler* profiler = nullptr);
     /// Records the mask: every layer, every channel. 1 = fully lit; background 1; lights without a map 1; a surface
@@ -337,7 +338,7 @@ public:
     /// faces: it is not drawn there. Without Frame::objects only a light with a range has such pixels. Afterwards
     /// mask() is readable by FRAGMENT_SHADER, COMPUTE_SHADER and TRANSFER. Nothing is recorded where mask() holds all
     /// this already (MaskInputs::content); of lights whose frames converge, of suns with step-alternate and of views
-    /// with View::gpu_cascade that is not known.
+    /// with ViewProjection::gpu_cascade that is not known.
     void recordMask(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
                     Profiler* profiler = nullptr);
 
@@ -367,8 +368,8 @@ public:
     /// GpuDepthLayers by pack::depthLayersSlot(), visible likewise. Of other filters than lvsm one that nobody reads.
     /// Empty where maps() is.
     [[nodiscard]] BufferRef depthLayersBuffer(std::uint32_t options = 0) const;
-    /// Completes views with View::gpu_cascade that pack::fillViews() wrote to a storage buffer of the host's, all of
-    /// the plan's from `offset` on: after recordBounds(), and once with a slot. Afterwards they are visible to
+    /// Completes views with ViewProjection::gpu_cascade that pack::fillViews() wrote to a storage buffer of the host's,
+    /// all of the plan's from `offset` on: after recordBounds(), and once with a slot. Afterwards they are visible to
     /// FRAGMENT_SHADER and COMPUTE_SHADER reads. Nothing for plans without such views.
     void recordViews(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, VkBuffer views,
                      VkDeviceSize offset = 0);
@@ -385,8 +386,8 @@ public:
     /// recordMaps(); else empty.
     [[nodiscard]] std::vector<pack::DepthLayer> depthLayers(const Plan& plan, std::uint32_t view) const;
     /// What the last recordBounds() that was given this slot found, by view of its plan, once the GPU has finished it;
-    /// of use for views with View::gpu_cascade alone (viewAsFitted()). For reports: nothing is drawn from it. Empty
-    /// when the plan has no such views.
+    /// of use for views with ViewProjection::gpu_cascade alone (viewAsFitted()). For reports: nothing is drawn from it.
+    /// Empty when the plan has no such views.
     [[nodiscard]] std::vector<FittedView> fittedViews(std::uint32_t slot) const;
 
 private:

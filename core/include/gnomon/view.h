@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+// A view of the plan: a frustum of one light and its map. The planner's steps write a part each: Views the projection,
+// casters, what it serves and the fit, then the place that Places has found, and Schedule the contents.
+#pragma once
+
+#include <gnomon/frame.h>
+#include <gnomon/options.h>
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace gnomon {
+
+inline constexpr std::uint32_t kNoIndex = 0xFFFFFFFFU; // stands for no index at all
+
+/// A rectangle of one layer of the atlas, in texels.
+struct Tile {
+    std::uint32_t layer = 0;  // page of the atlas
+    std::uint32_t x = 0;      // of its first texel, from the left
+    std::uint32_t y = 0;      // of its first texel, from the top
+    std::uint32_t width = 0;  // texels
+    std::uint32_t height = 0; // texels
+};
+
+/// Some of a tile's texels, counted from its first one. Width 0: none.
+struct TexelRect {
+    std::uint32_t x = 0;      // from the tile's left
+    std::uint32_t y = 0;      // from the tile's top
+    std::uint32_t width = 0;  // texels
+    std::uint32_t height = 0; // texels
+
+    /// There is no texel in it.
+    [[nodiscard]] bool empty() const { return width == 0 || height == 0; }
+};
+
+/// Which half of a texel's bits holds a map: two may share one target (ResolvedOptions::paired_maps).
+enum class TexelPart : std::uint8_t { whole, first, second };
+
+/// Names a map: one square of the pages (and part of its texels), for as long as one frustum of a light has it. A map
+/// that its light gives up takes its name with it; the index is used again, with another generation.
+struct MapId {
+    std::uint32_t index = kNoIndex; // small and dense: less than Plan::map_count, so it may index a table
+    std::uint32_t generation = 0;   // which of those that had the index
+
+    /// It names a map.
+    [[nodiscard]] explicit operator bool() const { return index != kNoIndex; }
+    friend bool operator==(const MapId&, const MapId&) = default;
+};
+
+/// Names what the texels of a map hold: all that its drawing depends on. No number is given twice, not even by two
+/// planners of one process. 0: nothing, or nothing that is known.
+using ContentNumber = std::uint64_t;
+
+/// How far from its tile's edge a receiver's place in the map must be, in texels, so that a filter which reads texels
+/// whose centres are up to `reach_texels` away (>= 0.5, along x and y each) reads none outside the tile: the centre of
+/// a texel at the edge is half a texel inside. The mask takes a view for a receiver that is so far inside its tile
+/// only.
+[[nodiscard]] constexpr double tileMarginTexels(double reach_texels)
+{
+    constexpr double kRounding_texels = 1e-3; // a receiver on the far edge itself is in the next texel
+    return kRounding_texels + reach_texels - 0.5;
+}
+
+/// How a view measures depth: d' = dot(metric_ws, (p, 1)) = (d - near) / (far - near). Under parallel light d is metres
+/// along the ray, from a plane across it or one that leans with the receivers (ShadowOptions::level_depth): along each
+/// ray d' grows by 1 / (far - near) per metre. Of a light with a place d is metres along its axis, the map's middle:
+/// along a ray at an angle from that, d' grows by the angle's cosine / (far - near) per metre. Of a paraboloid d is
+/// metres from the light, and no row gives it: depthOnMap() (plan_views.h) does.
+struct DepthMetric {
+    glm::dvec4 metric_ws{0.0}; // the row that gives d' of a point of the world
+    double near_m = 0.0;       // where d' is 0
+    double far_m = 1.0;        // where d' is 1
+};
+
+/// The share of what is seen that a view serves: a range of dot(axis, (p, 1)) / dot(over, (p, 1)).
+/// - Mostly that is the camera's depth, metres from the eye along its view; `over` gives 1.
+/// - A lamp's views by partition multi have that depth over the depth along the light's axis, which has no unit. The
+///   lower it is, the finer the map has to be.
+/// - The segments of fit tsm (`across`) have a place along the trapezoid: metres from the eye across the light, or over
+///   a lamp's depth.
+struct ViewSlice {
+    glm::dvec4 axis{0.0};                                      // the row of what is counted
+    double begin_m = -std::numeric_limits<double>::infinity(); // where it begins; -infinity: nowhere
+    double end_m = std::numeric_limits<double>::infinity();    // where it ends; infinity: nowhere
+    /// Where the view before it, which serves as far as here too, fades over into this one: from begin_m to begin_m +
+    /// blend_m. 0: there is none before it.
+    double blend_m = 0.0;
+    glm::dvec4 over{0.0, 0.0, 0.0, 1.0}; // 1 everywhere, or the row `w` of the view's sector
+    bool across = false;                 // it counts along the map, and not along the camera's view
+
+    /// It is less than everything.
+    [[nodiscard]] bool bounded() const { return std::isfinite(begin_m) || std::isfinite(end_m); }
+    /// It counts over a lamp's depth.
+    [[nodiscard]] bool isRatio() const { return glm::dvec3(over) != glm::dvec3(0.0); }
+    /// Of a point in the view's sector.
+    [[nodiscard]] double depthAt(const glm::dvec3& p_ws) const
+    {
+        return glm::dot(axis, glm::dvec4(p_ws, 1.0)) / glm::dot(over, glm::dvec4(p_ws, 1.0));
+    }
+    /// Of any point; behind a lamp that it counts from, none.
+    [[nodiscard]] bool holds(const glm::dvec3& p_ws) const
+    {
+        const double depth_m = glm::dot(axis, glm::dvec4(p_ws, 1.0));
+        const double unit = glm::dot(over, glm::dvec4(p_ws, 1.0));
+        return !bounded() || (unit > 0.0 && depth_m >= begin_m * unit && depth_m <= end_m * unit);
+    }
+};
+
+/// Where views of one light stand side by side, the part of its directions that one of them serves: the points p with
+/// |dot(x, (p, 1))| and |dot(y, (p, 1))| both at most dot(w, (p, 1)), p in world space. A map shows more, for filters
+/// to read, but not all that casts there. By default it is everything. Where w is a lamp's, it is metres along an axis.
+struct ViewSector {
+    glm::dvec4 x{0.0};                // the row across the sector
+    glm::dvec4 y{0.0};                // the other row across
+    glm::dvec4 w{0.0, 0.0, 0.0, 1.0}; // the row that both are held against
+
+    /// It is less than everything.
+    [[nodiscard]] bool bounded() const
+    {
+        return x != glm::dvec4(0.0) || y != glm::dvec4(0.0) || w != glm::dvec4(0.0, 0.0, 0.0, 1.0);
+    }
+    /// Is a point of the world in it?
+    [[nodiscard]] bool holds(const glm::dvec3& p_ws) const
+    {
+        const glm::dvec4 p(p_ws, 1.0);
+        return std::max(std::abs(glm::dot(x, p)), std::abs(glm::dot(y, p))) <= glm::dot(w, p);
+    }
+};
+
+/// What a fit achieved. Sides of texels are as ViewProjection::texel_xy_m has them, in x and y of the map.
+struct FitReport {
+    double strength = 1.0;          // how many times as wide the widest texel is as the narrowest; 1: no warp
+    glm::dvec2 finest_texel{0.0};   // of a warped map: of what is seen and lit, where it is drawn most finely
+    glm::dvec2 coarsest_texel{0.0}; // and most coarsely
+};
+
+/// A layer of depth, in the view's own depths: d'' = clamp((d' - near) / (far - near), 0, 1). Both may lie outside of
+/// [0, 1]. Both zero: none.
+struct DepthSpan {
+    double near = 0.0; // where the layer begins
+    double far = 0.0;  // where it ends
+
+    friend bool operator==(const DepthSpan&, const DepthSpan&) = default;
+};
+
+/// Which of a stepping sun's two positions a view belongs to (SunSteps).
+enum class SunPosition : std::uint8_t { only, earlier, later };
+
+/// How a view takes the world to its map.
+struct ViewProjection {
+    glm::dmat4 clip_from_world{1.0}; // z in [0, w] beyond the near plane; y down; but see paraboloid
+    DepthMetric metric;              // what the map's depths are
+    bool orthographic = true; // neither a lamp's nor warped; then the rasteriser's z is the metric, up to rounding
+    bool clamp_near = true;   // casters before the near plane are to be clamped onto it, not cut
+    /// The light's rays are parallel. Otherwise they come from light_place_ws, and the map is a perspective one or a
+    /// paraboloid.
+    bool parallel = true;
+    /// The map is a paraboloid, of the half space that ViewServes::sector has. Then clip_from_world takes a point to
+    /// (q, 1 / s): q is from the light to the point, in axes of the map (x right, y down, z along its axis) and in
+    /// lengths of far - near; and the map has it at s q.xy / (q.z + |q|), of -1 .. 1 over its tile, with depth |q| +
+    /// metric.metric_ws.w (placeOnMap(), depthOnMap()). The half space is a disc of radius s, beside which there is
+    /// room for kernels.
+    bool paraboloid = false;
+    /// Where depths are measured from. Directional: the centre of what is seen, backed out against the light until
+    /// everything that can cast is in front (Marinescu 2011, eq. 6); spot, point: the light's position.
+    glm::dvec3 light_place_ws{0.0};
+    /// Side of a texel: metres across a directional light, or metres at 1 m distance from a light with a place. Of a
+    /// warped map it is the longest of what is seen and lit.
+    double texel_m = 0.0;
+    glm::dvec2 texel_xy_m{0.0}; // both sides of a texel, in x and y of the map; texel_m is the longer one
+    /// Room on all sides for the rays to the rest of the light (integratesLight()), in texel_m's units of length.
+    double light_reach = 0.0;
+    /// Partition::sdsm: which of its light's cascades this is. Then the view says how the light's base map lies, and
+    /// the GPU finds which rectangle of it the view shows and which slice it serves (FittedView). Depth and casters are
+    /// the base map's. Always to be drawn again. kNoIndex: all is as it says here.
+    std::uint32_t gpu_cascade = kNoIndex;
+    /// With gpu_cascade: how far the view is to be moved over what it shows, in its own texels. Else it has been.
+    glm::dvec2 grid_move_texels{0.0};
+};
+
+/// What is drawn into a view's map (ObjectFlags::casts): a range of Plan::casters. First those that stand still, then
+/// those that move (ObjectFlags::dynamic), each ascending; without a kept layer, all ascending.
+struct ViewCasters {
+    std::uint32_t first = 0; // of Plan::casters
+    std::uint32_t count = 0; // how many there are
+    std::uint32_t still = 0; // how many of them stand still; of use with a kept layer only
+};
+
+/// Which points a view serves, and what it counts for.
+struct ViewServes {
+    SunPosition sun = SunPosition::only; // of a stepping sun, which of its positions
+    ViewSlice slice;                     // which depths
+    ViewSector sector;                   // which directions
+    /// How far it has faded in over the light's views before it, where they serve the same place: 0 .. 1. Less than 1
+    /// only while frustums of partition multi change under motion snap (MultiOptions::fade_frames).
+    double faded_in = 1.0;
+    /// MultiDivide::receivers: its light's views overlap, finest first. Each counts for its opacityAt() a point, but no
+    /// more than those before it leave, and all together for 1.
+    bool layered = false;
+    double rim = 0.0; // layered: share of half its sector's width over which it fades out towards the sector's border
+    /// LayerPlacement::world: the layers of the world as this view has them, from near to far. Else all are none.
+    std::array<DepthSpan, kMaxDepthLayers> layers{};
+
+    /// Layered, of a point in its sector: 0 .. 1.
+    [[nodiscard]] double opacityAt(const glm::dvec3& p_ws) const
+    {
+        const glm::dvec4 p(p_ws, 1.0);
+        const double across = std::max(std::abs(glm::dot(sector.x, p)), std::abs(glm::dot(sector.y, p)));
+        const double inside = 1.0 - across / glm::dot(sector.w, p);
+        return (rim > 0.0 ? std::clamp(inside / rim, 0.0, 1.0) : 1.0) * faded_in;
+    }
+    /// What it counts for at a depth (ViewSlice::depthAt()) where a view before it serves the place, too: 0 .. 1.
+    [[nodiscard]] double shareAt(double depth_m) const
+    {
+        const bool fades = slice.blend_m > 0.0;
+        const double over = fades ? std::clamp((depth_m - slice.begin_m) / slice.blend_m, 0.0, 1.0) : 1.0;
+        return fades || faded_in < 1.0 ? over * faded_in : 0.0;
+    }
+};
+
+/// Where a view's map is.
+struct ViewPlace {
+    MapId map;                         // which map it is, from frame to frame
+    Tile tile;                         // where in the light's pages
+    TexelPart part = TexelPart::whole; // of the tile's texels
+};
+
+/// What a view's map holds, and what has to be drawn.
+struct ViewContents {
+    /// What the map must hold for the drawing below to be enough, and what it holds afterwards. A backend that notes
+    /// for each MapId::index what it drew last, and finds another number there than `presumes`, draws all of the tile
+    /// from all casters, whatever `redraw` and `dirty` say; it then holds `makes` all the same. So a frame that was
+    /// skipped, an image that was lost and a second renderer mend themselves. Presumes 0: all is drawn in any case.
+    /// Makes 0: nobody reads the map in this frame; it is to be left as it is.
+    ContentNumber presumes = 0;
+    ContentNumber makes = 0; // what it holds afterwards; 0: leave it
+    bool redraw = true;      // makes != presumes: something is to be drawn
+    /// Layer of the images that hold maps of still casters alone (same size and place there as the tile), from which
+    /// the map is restored before those that move are drawn over it. Of the plan's views no other one has the same
+    /// texels of it, or it has another part of them. kNoIndex: the map is drawn all at once.
+    std::uint32_t kept_layer = kNoIndex;
+    bool redraw_kept = false; // draw the still casters into the kept layer first; then `dirty` is all of the tile
+    /// The square of the kept layer is a map like any other, with its own name and contents. Where it does not hold
+    /// what it should, the still casters are drawn into it first, and then all of the tile is dirty.
+    MapId kept_map;
+    ContentNumber kept_presumes = 0; // as `presumes`, of the kept map
+    ContentNumber kept_makes = 0;    // as `makes`, of the kept map
+    /// With a kept layer and `redraw`: what has to be restored and drawn over, because something that moves is there or
+    /// was when the map was drawn last.
+    TexelRect dirty;
+    /// For how many frames the map has been out of date, this one included, as LightPlan::waited has it. Then
+    /// projection, casters and place are those that the view had. Of a cascade that waits by itself
+    /// (CascadeOptions::room) the slice is this frame's. 0: the map is what it should be.
+    std::uint32_t waited = 0;
+    /// Filters id and depth-id: names the ids that the casters are drawn with. A map that was drawn with others is out
+    /// of date. 0: no ids.
+    std::uint64_t ids_key = 0;
+};
+
+/// One map to draw: a frustum of one light.
+struct View {
+    std::uint32_t light = 0;   // index into Frame::lights
+    ViewProjection projection; // how the world lies on the map
+    ViewCasters casters;       // what is drawn into it
+    ViewServes serves;         // which points ask it
+    FitReport fit;             // how good the fit is
+    ViewPlace place;           // where the map is
+    ViewContents contents;     // what it holds, and what is drawn of it
+};
+
+} // namespace gnomon
