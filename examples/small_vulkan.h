@@ -33,26 +33,25 @@ struct Device {
     vk::raii::PhysicalDevice gpu = std::move(vk::raii::PhysicalDevices(instance).front());
     float priority = 1.0F;
     vk::DeviceQueueCreateInfo queue_info{{}, 0, 1, &priority};
-    gnomon::vulkan::FeatureUses features = gnomon::vulkan::supportedFeatures(viewOf(VK_NULL_HANDLE));
-    vk::raii::Device device{gpu,
-                            vk::DeviceCreateInfo({}, queue_info).setPNext(&gnomon::vulkan::requiredFeatures(features))};
+    gnomon::vulkan::DeviceView seen = look(); // the device that Gnomon records on
+    vk::raii::Device device{
+        gpu, vk::DeviceCreateInfo({}, queue_info).setPNext(&gnomon::vulkan::requiredFeatures(seen.features))};
     vk::raii::Queue queue{device, 0, 0};
     vk::raii::CommandPool pool{device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, 0}};
     vk::raii::CommandBuffers commands{device, {*pool, vk::CommandBufferLevel::ePrimary, kSlots}};
     std::array<vk::raii::Fence, kSlots> done{vk::raii::Fence(device, {vk::FenceCreateFlagBits::eSignaled}),
                                              vk::raii::Fence(device, {vk::FenceCreateFlagBits::eSignaled})};
 
-    gnomon::vulkan::DeviceView viewOf(VkDevice made) const
+    gnomon::vulkan::DeviceView look() const
     {
         gnomon::vulkan::DeviceView view;
         view.instance = *instance;
         view.physical_device = *gpu;
-        view.device = made;
         view.get_instance_proc_addr = context.getDispatcher()->vkGetInstanceProcAddr;
-        view.features = features;
+        view.features = supportedFeatures(view);
         return view;
     }
-    gnomon::vulkan::DeviceView view() const { return viewOf(*device); }
+    Device() { seen.device = *device; }
     vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& needs, vk::MemoryPropertyFlags flags) const
     {
         const vk::PhysicalDeviceMemoryProperties memory = gpu.getMemoryProperties();

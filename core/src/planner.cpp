@@ -92,6 +92,8 @@ struct Planner::Impl {
     void forget();
 };
 
+Planner::Planner() : Planner(ShadowOptions{}) {}
+
 Planner::Planner(const ShadowOptions& options) : Planner(std::span(&options, 1)) {}
 
 Planner::Planner(std::span<const ShadowOptions> options) : impl_(std::make_unique<Impl>(options, noOptions(options))) {}

@@ -241,7 +241,7 @@ int run(const std::string& folder)
 {
     const Device d;
     Scene scene;
-    scene.frame.clamps_depth = d.features.depth_clamp;
+    scene.frame.clamps_depth = d.seen.features.depth_clamp;
     const Cube cube(d);
 
     gnomon::ShadowOptions wish;
@@ -249,7 +249,7 @@ int run(const std::string& folder)
     wish.map_size = 512;
     const gnomon::ResolvedOptions options = gnomon::resolvedOrThrow(wish);
     gnomon::Planner planner(wish);
-    gnomon::vulkan::ShadowRenderer shadows(d.view(), {.frames_in_flight = kSlots});
+    gnomon::vulkan::ShadowRenderer shadows(d.seen, {.frames_in_flight = kSlots});
 
     using Type = vk::DescriptorType;
     const SetPool pool(d, {Type::eUniformBuffer, Type::eCombinedImageSampler, Type::eStorageBuffer,

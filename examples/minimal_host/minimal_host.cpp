@@ -136,18 +136,18 @@ int run(const std::string& folder)
 {
     const Device d;
     Scene scene;
-    scene.frame.clamps_depth = d.features.depth_clamp;
+    scene.frame.clamps_depth = d.seen.features.depth_clamp;
     const Buffer vertices(d, sizeof kCorners, vk::BufferUsageFlagBits::eVertexBuffer, kCorners.data());
     const Buffer indices(d, sizeof kIndices, vk::BufferUsageFlagBits::eIndexBuffer, kIndices.data());
     const Buffer pixels(d, vk::DeviceSize{4} * kSize.width * kSize.height, vk::BufferUsageFlagBits::eTransferDst);
     Prepass prepass(d);
 
-    gnomon::Planner planner(gnomon::ShadowOptions{}); // partition, fit, filter and bias are automatic
-    gnomon::vulkan::ShadowRenderer shadows(d.view(), {});
-    gnomon::vulkan::CasterDrawer casters(d.view(), {});
+    gnomon::Planner planner; // partition, fit, filter and bias are automatic
+    gnomon::vulkan::ShadowRenderer shadows(d.seen);
+    gnomon::vulkan::CasterDrawer casters(d.seen);
     const gnomon::vulkan::DrawPart cube{{0, kIndices.size(), 0}, 0};
     const std::array<gnomon::vulkan::DrawObject, 4> objects{{{0, 1}, {0, 1}, {0, 1}, {0, 1}}};
-    casters.setScene({&cube, 1}, objects, std::array<gnomon::vulkan::CasterBatch, 1>{});
+    casters.setScene({&cube, 1}, objects);
 
     for (int i = 0; i < kFrames; ++i) {
         const auto slot = static_cast<std::uint32_t>(i) % kSlots;
@@ -156,10 +156,10 @@ int run(const std::string& folder)
         shadows.prepare(plan, kSize);
         casters.beginFrame(slot, plan, {*vertices.buffer, 0, nullptr, 0, *indices.buffer, 0}, scene.world_from_object);
         prepass.record(commands, scene, *vertices.buffer, *indices.buffer);
-        shadows.recordMaps(*commands, slot, plan, [&](const gnomon::vulkan::MapPass& pass) { casters.draw(pass); });
+        shadows.recordMaps(*commands, slot, plan, casters.callback());
         shadows.recordMask(*commands, slot, plan, {kSize, *prepass.depth.view});
         // Here a renderer would shade with shadows.mask(); this one reads the last frame's back.
-        const gnomon::vulkan::ImageRef mask = shadows.mask();
+        const auto mask = shadows.mask();
         transition(commands, mask.image, vk::ImageAspectFlagBits::eColor, vk::ImageLayout(mask.layout),
                    vk::ImageLayout::eTransferSrcOptimal);
         const vk::BufferImageCopy whole(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {},

@@ -3,10 +3,11 @@
 #include "null_driver.h"
 
 #include <gnomon/planner.h>
-#include <gnomon/vulkan/shadow_renderer.h>
+#include <gnomon/vulkan/caster_drawer.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <array>
 #include <cstdlib>
 
 int main()
@@ -18,10 +19,13 @@ int main()
     const glm::dvec3 eye(4.0, 3.0, 6.0);
     const glm::dmat4 clip_from_world = glm::perspectiveRH_ZO(0.9, 16.0 / 9.0, 500.0, 0.1) *
                                        glm::lookAtRH(eye, glm::dvec3(0.0), glm::dvec3(0.0, 1.0, 0.0));
-    std::size_t drawn = 0;
-    const auto drawObject = [&](const gnomon::vulkan::MapPass&, std::uint32_t) {
-        ++drawn;
-    };
+    const gnomon::vulkan::DeviceView device = engine.view();
+    const std::uint32_t slot = 0;
+    const VkBuffer vertices = engine.makeBuffer();
+    const VkBuffer indices = engine.makeBuffer();
+    const std::array parts{gnomon::vulkan::DrawPart{{0, 36, 0}, 0}};
+    const std::array draws{gnomon::vulkan::DrawObject{0, 1}, gnomon::vulkan::DrawObject{0, 1}};
+    const std::array<gnomon::vulkan::Rows3x4, 2> world_from_object{};
 
     // README begin
     gnomon::ObjectSet objects; // bounds of everything that casts or receives
@@ -38,17 +42,16 @@ int main()
     gnomon::Planner planner({.max_texels = 2048 * 2048}); // which maps, by which matrices, who is drawn there; all auto
     const gnomon::Plan& plan = planner.plan(frame);
 
-    gnomon::vulkan::ShadowRenderer shadows(engine.view(), {}); // your device
+    gnomon::vulkan::ShadowRenderer shadows(device); // yours
+    gnomon::vulkan::CasterDrawer casters(device);
+    casters.setScene(parts, draws); // which ranges of your index buffer each object draws
     shadows.prepare(plan, screen);
-    shadows.recordMaps(commands, 0, plan, [&](const gnomon::vulkan::MapPass& pass) {
-        for (const std::uint32_t object : pass.casters) { // all of them: filterable maps hold receivers, too
-            // By pass.clip_from_world, with a pipeline for pass.formats: docs/integrating.md.
-            drawObject(pass, object);
-        }
-    });
-    shadows.recordMask(commands, 0, plan, {screen, depth_view});
+    casters.beginFrame(slot, plan, {vertices, 0, nullptr, 0, indices, 0}, world_from_object);
+    shadows.recordMaps(commands, slot, plan, casters.callback()); // or a callback of your own
+    shadows.recordMask(commands, slot, plan, {screen, depth_view});
     const gnomon::vulkan::ImageRef mask = shadows.mask(); // visibility per pixel: 1 lit, 0 in shadow
     // README end
 
-    return plan.views.size() == 1 && drawn > 0 && mask.view != VK_NULL_HANDLE ? EXIT_SUCCESS : EXIT_FAILURE;
+    return plan.views.size() == 1 && casters.triangles() > 0 && mask.view != VK_NULL_HANDLE ? EXIT_SUCCESS
+                                                                                            : EXIT_FAILURE;
 }

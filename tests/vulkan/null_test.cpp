@@ -85,9 +85,7 @@ public:
     std::vector<vulkan::Rows3x4> transforms;
     ShadowRenderer renderer;
     CasterDrawer drawer;
-    vulkan::DrawCasters draw = [this](const MapPass& pass) {
-        drawer.draw(pass);
-    };
+    vulkan::DrawCasters draw = drawer.callback();
 };
 
 TEST(NullRecording, passesComeInOrder)

@@ -96,6 +96,19 @@ void CasterDrawer::setScene(std::span<const DrawPart> parts, std::span<const Dra
     impl_->tints = std::ranges::any_of(impl_->batches, &CasterBatch::blended);
 }
 
+void CasterDrawer::setScene(std::span<const DrawPart> parts, std::span<const DrawObject> objects)
+{
+    const CasterBatch opaque;
+    setScene(parts, objects, {&opaque, 1});
+}
+
+DrawCasters CasterDrawer::callback()
+{
+    return [this](const MapPass& pass) {
+        draw(pass);
+    };
+}
+
 void CasterDrawer::setBiases(std::span<const float> bias_m)
 {
     if (!std::ranges::all_of(bias_m, [](float bias) { return std::isfinite(bias); })) {

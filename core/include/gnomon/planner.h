@@ -18,6 +18,7 @@ namespace gnomon {
 /// One that was moved from refuses every light.
 class GNOMON_API Planner {
 public:
+    Planner(); // of the default options
     /// Options that resolve() refuses are no error: every light that names them gets Outcome refused with that
     /// sentence, as does a light whose own type does not go with the technique.
     explicit Planner(const ShadowOptions& options);

@@ -44,7 +44,7 @@ struct GpuCascadeLight {
     GN_VEC4 texel; // x, y: ViewProjection::texel_xy_m of the base map, z, w: how far each cascade is moved, of its own
                    // [-1, 1]
     GN_VEC4
-        room; // x, y: on all sides of a pixel's place, for ViewProjection::light_reach; z: 1: of a place where w is 1
+    room; // x, y: on all sides of a pixel's place, for ViewProjection::light_reach; z: 1: of a place where w is 1
 };
 
 // Found so far, as whole numbers that only grow, so that the order in which pixels come does not matter: greatestKey()

@@ -129,7 +129,7 @@ struct CasterDrawerOptions {
 class GNOMON_API CasterDrawer {
 public:
     /// Throws Error when a function is missing, a format of the vertices is none of those above or memory runs out.
-    CasterDrawer(const DeviceView& device, const CasterDrawerOptions& options);
+    explicit CasterDrawer(const DeviceView& device, const CasterDrawerOptions& options = {});
     /// Does not wait: destroy it when the GPU has finished what it recorded.
     ~CasterDrawer();
     CasterDrawer(const CasterDrawer&) = delete;
@@ -138,6 +138,8 @@ public:
     /// What the object indices of the plans draw. May allocate. `batches` is indexed by DrawPart::batch.
     void setScene(std::span<const DrawPart> parts, std::span<const DrawObject> objects,
                   std::span<const CasterBatch> batches);
+    /// All is opaque: the parts' batch is 0.
+    void setScene(std::span<const DrawPart> parts, std::span<const DrawObject> objects);
 
     /// Biases of single casters, for the one that nothing else serves: in maps they are so many metres (DepthMetric's)
     /// farther from the light than they are, or nearer. By object index; beyond the end 0, and so is all before the
@@ -153,8 +155,11 @@ public:
     /// plan's lists are longer than any before; else allocates nothing. Throws Error when memory runs out.
     void beginFrame(std::uint32_t slot, const Plan& plan, const CasterGeometry& geometry,
                     std::span<const Rows3x4> world_from_object);
-    /// Draws one pass; to be called from the DrawCasters callback. Those of several views between two beginFrame() must
-    /// come from one ShadowRenderer. Returns the number of indirect draws it recorded, for Profiler::addDraws.
+    /// For recordMaps(): draws each pass. Of use for as long as the drawer lives.
+    [[nodiscard]] DrawCasters callback();
+    /// Draws one pass; to be called from a DrawCasters callback of the host's own. Those of several views between two
+    /// beginFrame() must come from one ShadowRenderer. Returns the number of indirect draws it recorded, for
+    /// Profiler::addDraws.
     std::uint32_t draw(const MapPass& pass);
 
     [[nodiscard]] std::uint64_t triangles() const; // submitted since beginFrame()

@@ -297,7 +297,7 @@ struct WarmUp {
 class GNOMON_API ShadowRenderer {
 public:
     /// Throws Error when a handle of the device or a function is missing or memory runs out.
-    ShadowRenderer(const DeviceView& device, const ShadowRendererOptions& options);
+    explicit ShadowRenderer(const DeviceView& device, const ShadowRendererOptions& options = {});
     /// Does not wait: destroy it when the GPU has finished what it recorded.
     ~ShadowRenderer();
     ShadowRenderer(const ShadowRenderer&) = delete;
