@@ -147,7 +147,7 @@ void FrameRenderer::Impl::recordMaps(VkCommandBuffer cmd, const vulkan::MaskInpu
     // It holds one pointer, for which nothing is allocated.
     const vulkan::DrawCasters draw = [this](const vulkan::MapPass& pass) {
         std::optional<vulkan::FinDrawer>& fins = shadows->fins;
-        profiler.addDraws(fins && pass.formats.fins ? fins->draw(pass) : shadows->casters.draw(pass));
+        profiler.addDraws(fins && pass.classic.formats.fins ? fins->draw(pass) : shadows->casters.draw(pass));
     };
     renderer.recordMaps(cmd, slot, *plan, draw, &profiler);
     if (const ForwardShadows* const lookup = forwardShadows()) {

@@ -56,7 +56,7 @@ void ChangingHost::begin()
     addObjects();
     makeScene();
     draw_ = [this](const vulkan::MapPass& pass) {
-        (void)(pass.formats.fins ? fins.draw(pass) : drawer.draw(pass));
+        (void)(pass.classic.formats.fins ? fins.draw(pass) : drawer.draw(pass));
     };
     for (Views& views : views_) {
         views = {driver.makeView(), driver.makeView(), driver.makeView()};

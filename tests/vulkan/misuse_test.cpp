@@ -230,7 +230,7 @@ TEST(Misuse, OfFinsIsAnError)
     vulkan::FinDrawer fins(host.driver.view(), {});
     vulkan::MapPass pass;
     pass.commands = host.driver.commands();
-    pass.formats.fins = true;
+    pass.classic.formats.fins = true;
     expectRefused(host, "call beginFrame() first", [&] { (void)fins.draw(pass); });
     const VkBuffer buffer = host.driver.makeBuffer();
     const vulkan::VolumeGeometry geometry{{buffer, 64}, {buffer, 64}, {buffer, 64}};
@@ -240,13 +240,13 @@ TEST(Misuse, OfFinsIsAnError)
     expectRefused(host, "give one for each object", [&] { fins.beginFrame(0, geometry, host.transforms); });
     fins.setScene({});
     fins.beginFrame(0, geometry, host.transforms);
-    expectRefused(host, "hand in passes with MapPassFormats::fins", [&] { (void)fins.draw(pass); }); // of no plan
+    expectRefused(host, "hand in passes with ClassicFormats::fins", [&] { (void)fins.draw(pass); }); // of no plan
     fins.setScene({}); // for whose objects there may be too few transforms
     expectRefused(host, "call beginFrame() first", [&] { (void)fins.draw(pass); });
     Misuser plain;
     plain.prepare();
     plain.begin();
-    expectRefused(plain, "hand passes with MapPassFormats::fins to a FinDrawer",
+    expectRefused(plain, "hand passes with ClassicFormats::fins to a FinDrawer",
                   [&] { (void)plain.drawer.draw(pass); });
 }
 

@@ -249,7 +249,7 @@ Rendered renderParity(const ShadowOptions& options, ParityLights lights)
             drawer.beginFrame(slot, r.plan, mesh.geometry, transforms);
             fins.beginFrame(slot, mesh.edges, transforms);
             renderer.recordMaps(commands, slot, r.plan, [&](const MapPass& pass) {
-                (void)(pass.formats.fins ? fins.draw(pass) : drawer.draw(pass));
+                (void)(pass.classic.formats.fins ? fins.draw(pass) : drawer.draw(pass));
             });
             renderer.recordMask(commands, slot, r.plan, inputs);
         }

@@ -109,7 +109,7 @@ std::vector<std::byte> PlannedScene::draw(Drawing& drawing, const Plan& plan, st
         drawing.renderer.recordMaps(
             commands, slot, plan,
             [&](const vulkan::MapPass& pass) {
-                (void)(pass.formats.fins ? drawing.fins.draw(pass) : drawing.drawer.draw(pass));
+                (void)(pass.classic.formats.fins ? drawing.fins.draw(pass) : drawing.drawer.draw(pass));
             },
             profiler);
         drawing.renderer.recordMask(commands, slot, plan, inputs_, profiler);

@@ -180,6 +180,7 @@ void CasterDrawer::Impl::ensurePipelines(const Plan& plan)
         }
         CasterPipelineKey key;
         key.formats = mapFormats(optionsOf(plan, view), view.projection.orthographic);
+        key.classic = classicFormats(optionsOf(plan, view));
         key.perspective = !view.projection.orthographic;
         key.clamp = view.projection.clamp_near;
         key.part = view.place.part;
@@ -194,7 +195,7 @@ void CasterDrawer::Impl::ensurePipelines(const Plan& plan)
 
 /// Pipelines take counter-clockwise triangles for front faces, so of a batch that winds the other way the other ones
 /// are left out.
-VkCullModeFlags CasterDrawer::Impl::cullOf(const CasterBatch& batch, const MapPassFormats& formats) const
+VkCullModeFlags CasterDrawer::Impl::cullOf(const CasterBatch& batch, const ClassicFormats& formats) const
 {
     const bool may_be_cut = !batch.two_sided && !isClipped(batch);
     CasterCull cull = formats.cull;
@@ -213,17 +214,17 @@ void CasterDrawer::Impl::setBatch(CasterPipelineKey& key, const CasterBatch& bat
     key.masked = batch.texture != VK_NULL_HANDLE;
     key.coloured = readsColours(batch);
     key.clipped = isClipped(batch);
-    key.cull = cullOf(batch, key.formats);
+    key.cull = cullOf(batch, key.classic);
 }
 
 /// For its map of tints: what blocks light before the blended casters, and these.
 void CasterDrawer::Impl::ensureTints(CasterPipelineKey key)
 {
     key.part = TexelPart::whole;
-    const bool paraboloid = key.formats.paraboloid;
-    key.formats = blockerFormats(!key.perspective, paraboloid);
+    key.classic = {.paraboloid = key.classic.paraboloid};
+    key.formats = blockerFormats(!key.perspective);
     ensureBatches(key);
-    key.formats = tintFormats(paraboloid);
+    key.formats = tintFormats();
     ensureBatches(key);
 }
 
@@ -246,7 +247,7 @@ void CasterDrawer::Impl::ensureAllPasses(CasterPipelineKey key, const ResolvedOp
         ensureTints(key);
     }
     if (isDrawnTwice(resolved)) {
-        key.formats.behind_first = true;
+        key.classic.behind_first = true;
         ensureBatches(key);
     }
 }
@@ -266,6 +267,7 @@ void CasterDrawer::warmUp(const ResolvedOptions& options, bool perspective)
         key.placed = (bits & 4U) != 0;
         key.layered = (bits & 8U) != 0;
         key.formats = mapFormats(options, !key.perspective);
+        key.classic = classicFormats(options);
         if ((key.perspective && !perspective) || (key.placed && !placed) || (key.layered && !layered)) {
             continue;
         }

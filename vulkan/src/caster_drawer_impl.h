@@ -49,7 +49,7 @@ struct CasterDrawer::Impl {
     void ensureAllPasses(CasterPipelineKey key, const ResolvedOptions& resolved);
     /// What of `key` says how a batch is drawn.
     void setBatch(CasterPipelineKey& key, const CasterBatch& batch) const;
-    [[nodiscard]] VkCullModeFlags cullOf(const CasterBatch& batch, const MapPassFormats& formats) const;
+    [[nodiscard]] VkCullModeFlags cullOf(const CasterBatch& batch, const ClassicFormats& formats) const;
     void makePlaces(const Plan& plan);
     [[nodiscard]] std::span<const std::uint32_t> listOf(const MapPass& pass);
     void writeRows(const MapPass& pass, std::span<const std::uint32_t> instances);

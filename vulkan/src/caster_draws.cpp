@@ -39,7 +39,7 @@ void CasterDrawer::Impl::writeRows(const MapPass& pass, std::span<const std::uin
     auto* const out = reinterpret_cast<glm::vec4*>(static_cast<std::byte*>(slot->instances.data()) + instances_used);
     if (pass.view_count > 1) {
         writeLayeredInstances(pass, instances, casters, out);
-    } else if (pass.formats.ids) {
+    } else if (pass.classic.formats.ids) {
         writeIdInstances(pass, instances, casters, out);
     } else {
         writeInstances(*pass.view, instances, casters, out);
@@ -58,7 +58,7 @@ void CasterDrawer::Impl::bindGeometry(const MapPass& pass) const
     if (geometry.colours != VK_NULL_HANDLE) {
         device.vk.CmdBindVertexBuffers(pass.commands, kColourBinding, 1, &geometry.colours, &geometry.colours_offset);
     }
-    if (pass.formats.pieces) {
+    if (pass.classic.formats.pieces) {
         device.vk.CmdBindVertexBuffers(pass.commands, kPieceBinding, 1, &geometry.pieces, &geometry.pieces_offset);
     }
     if (pass.placement != VK_NULL_HANDLE && pass.view_count == 1) {
@@ -114,9 +114,10 @@ std::uint32_t CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraw
         if (bound == VK_NULL_HANDLE && key.layered && key.placed) {
             bindPlaces(pass); // not before the pipeline: llvmpipe 22.3 crashes on a set that none was ever bound for
         }
-        if (bound == VK_NULL_HANDLE && key.formats.behind_first) {
+        if (bound == VK_NULL_HANDLE && key.classic.behind_first) {
             device.vk.CmdBindDescriptorSets(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.layout(),
-                                            CasterPipelines::kFirstSurfaceSet, 1, &pass.first_surface, 0, nullptr);
+                                            CasterPipelines::kFirstSurfaceSet, 1, &pass.classic.first_surface, 0,
+                                            nullptr);
         }
         bound = pipeline;
     }
@@ -143,13 +144,14 @@ void CasterDrawer::Impl::checkPass(const MapPass& pass) const
         refuseUse(kDrawing, "no frame has begun", "call beginFrame() first");
     }
     checkCommands(kDrawing, pass.commands);
-    if (pass.formats.fins) {
-        refuseUse(kDrawing, "the pass is of fins", "hand passes with MapPassFormats::fins to a FinDrawer");
+    if (pass.classic.formats.fins) {
+        refuseUse(kDrawing, "the pass is of fins", "hand passes with ClassicFormats::fins to a FinDrawer");
     }
     if (pass.view == nullptr || pass.view_count == 0 || pass.view_count > kMaxCascades) {
         refuseUse(kDrawing, "the pass has no view, or more than one pass can have", kAsGiven);
     }
-    if (pass.formats.ids && (pass.plan == nullptr || pass.plan->lights[pass.view->light].first_object_id == kNoIndex)) {
+    if (pass.classic.formats.ids &&
+        (pass.plan == nullptr || pass.plan->lights[pass.view->light].first_object_id == kNoIndex)) {
         refuseUse(kDrawing, "the map holds ids, and the plan has none for its light", kAsGiven);
     }
     if (pass.view_count > 1 && (!together || pass.plan == nullptr || pass.view_index >= pass.plan->views.size() ||
@@ -162,7 +164,7 @@ void CasterDrawer::Impl::checkPass(const MapPass& pass) const
 void CasterDrawer::Impl::checkRoom(const MapPass& pass, std::uint32_t instances) const
 {
     const VkDeviceSize bytes = instances * VkDeviceSize{instanceBytes(!pass.view->projection.orthographic,
-                                                                      pass.view_count > 1, pass.formats.ids)};
+                                                                      pass.view_count > 1, pass.classic.formats.ids)};
     const VkDeviceSize commands = std::min(instances, batcher.maxCommands()) * kCommandBytes;
     if (instances > handles.size() || instances_used + bytes > slot->instances.size() ||
         commands_used + commands > slot->commands.size()) {
@@ -193,6 +195,7 @@ std::uint32_t CasterDrawer::draw(const MapPass& pass)
     self.bindGeometry(pass);
     CasterPipelineKey key;
     key.formats = pass.formats;
+    key.classic = pass.classic.formats;
     key.perspective = !view.projection.orthographic;
     key.clamp = view.projection.clamp_near;
     // What blocks light before blended casters is drawn to no texels that two maps share.
@@ -205,8 +208,8 @@ std::uint32_t CasterDrawer::draw(const MapPass& pass)
         drawn += self.drawBatch(pass, draws, key);
     }
     self.commands_used += lists.command_count * kCommandBytes;
-    self.instances_used +=
-        VkDeviceSize{lists.instance_count} * instanceBytes(!view.projection.orthographic, layered, pass.formats.ids);
+    self.instances_used += VkDeviceSize{lists.instance_count} *
+                           instanceBytes(!view.projection.orthographic, layered, pass.classic.formats.ids);
     self.triangles += lists.index_count / 3;
     return drawn;
 }

@@ -39,26 +39,27 @@ struct FragmentCodes {
 };
 
 // Empty where the rasteriser alone does the work.
-FragmentCodes fragmentCodes(const MapPassFormats& formats, bool per_sample)
+FragmentCodes fragmentCodes(const CasterPipelineKey& key, bool per_sample)
 {
     using namespace spirv;
+    const MapPassFormats& formats = key.formats;
     const bool coloured = formats.colour != VK_FORMAT_UNDEFINED;
     if (formats.blended) {
         return {caster_tint_frag, caster_tint_frag};
     }
-    if (formats.behind_first) {
+    if (key.classic.behind_first) {
         return {caster_behind_frag, caster_behind_masked_frag};
     }
-    if (formats.paraboloid && coloured) {
+    if (key.classic.paraboloid && coloured) {
         return {caster_colour_depth_frag, caster_colour_depth_masked_frag};
     }
     if (coloured) {
         return {caster_colour_frag, caster_colour_masked_frag};
     }
-    if (formats.write_frag_depth && per_sample && !formats.paraboloid) {
+    if (formats.write_frag_depth && per_sample && !key.classic.paraboloid) {
         return {caster_depth_samples_frag, caster_depth_samples_masked_frag};
     }
-    if (formats.write_frag_depth || formats.paraboloid) {
+    if (formats.write_frag_depth || key.classic.paraboloid) {
         return {caster_depth_frag, caster_depth_masked_frag};
     }
     // Alpha is tested once for all samples of a texel: testing each would run the shader four times for what is a
@@ -94,8 +95,8 @@ CasterConstants constantsOf(const CasterPipelineKey& key, bool has_fragment)
             asBool32(key.masked),
             asBool32(key.perspective),
             asBool32(has_fragment),
-            asBool32(formats.ids),
-            asBool32(formats.paraboloid),
+            asBool32(key.classic.ids),
+            asBool32(key.classic.paraboloid),
             asBool32(key.placed),
             asBool32(formats.write_frag_depth)};
 }
@@ -160,7 +161,7 @@ VertexInput vertexInput(const CasterPipelineKey& key, const CasterVertices& vert
         input.read(location, 1, whole ? VK_FORMAT_R32_UINT : kRow, 0);
     }
     input.bind(0, vertices.position.stride, VK_VERTEX_INPUT_RATE_VERTEX);
-    input.bind(1, instanceBytes(key.perspective, key.layered, key.formats.ids), VK_VERTEX_INPUT_RATE_INSTANCE);
+    input.bind(1, instanceBytes(key.perspective, key.layered, key.classic.ids), VK_VERTEX_INPUT_RATE_INSTANCE);
     input.read(0, 0, vertices.position.format, vertices.position.offset);
     for (std::uint32_t i = 0; i < rows; ++i) {
         input.read(1 + i, 1, kRow, i * kRowBytes);
@@ -173,12 +174,12 @@ VertexInput vertexInput(const CasterPipelineKey& key, const CasterVertices& vert
         input.bind(kColourBinding, vertices.colour.stride, VK_VERTEX_INPUT_RATE_VERTEX);
         input.read(kColour, kColourBinding, vertices.colour.format, vertices.colour.offset);
     }
-    if (key.formats.ids) {
+    if (key.classic.ids) {
         input.read(kOwn, 1, kRow, rows * kRowBytes);
         input.read(kId, 1, VK_FORMAT_R32G32_SFLOAT, (rows + 1) * kRowBytes);
         input.read(kPiece, 1, VK_FORMAT_R32_UINT, (rows + 1) * kRowBytes + kRowBytes / 2); // a zero
     }
-    if (key.formats.pieces) {
+    if (key.classic.pieces) {
         input.bind(kPieceBinding, vertices.piece.stride, VK_VERTEX_INPUT_RATE_VERTEX);
         input.read(kPiece, kPieceBinding, vertices.piece.format, vertices.piece.offset);
     }
@@ -214,7 +215,7 @@ CasterPipelines::CasterPipelines(Device& device, const CasterDrawerOptions& opti
 
 void CasterPipelines::ensure(const CasterPipelineKey& key)
 {
-    if (key.formats.pieces && options_.vertices.piece.format == VK_FORMAT_UNDEFINED) {
+    if (key.classic.pieces && options_.vertices.piece.format == VK_FORMAT_UNDEFINED) {
         refuseUse("make the pipelines of casters", "id.of face tells pieces of objects apart, and vertices have none",
                   "say where they have them: CasterVertices::piece");
     }
@@ -234,7 +235,7 @@ Pipeline CasterPipelines::make(const CasterPipelineKey& key)
     const MapPassFormats& formats = key.formats;
     const ShaderModule vertex = makeShader(device_, vertexCode(key));
     const bool per_sample = formats.samples != VK_SAMPLE_COUNT_1_BIT && device_.uses().sample_metric;
-    const FragmentCodes codes = fragmentCodes(formats, per_sample);
+    const FragmentCodes codes = fragmentCodes(key, per_sample);
     const Code fragment_code = key.masked ? codes.masked : codes.whole;
     const Specialisation specialisation(constantsOf(key, !fragment_code.empty()));
     ShaderModule fragment;

@@ -13,6 +13,7 @@ namespace gnomon::vulkan {
 /// What distinguishes them.
 struct CasterPipelineKey {
     MapPassFormats formats;
+    ClassicFormats classic;
     bool perspective = false;
     bool masked = false;   // or blended: it has a texture
     bool coloured = false; // CasterBatch::vertex_colours, of what is masked
@@ -56,7 +57,7 @@ public:
     [[nodiscard]] VkDescriptorSetLayout textureSetLayout() const { return textures_.layout(); }
     /// Set 1 of passes of several views that the GPU has placed: GpuFittedView by view of the plan.
     [[nodiscard]] DescriptorSets& places() { return places_; }
-    /// Which set MapPass::first_surface is.
+    /// Which set ClassicPass::first_surface is.
     static constexpr std::uint32_t kFirstSurfaceSet = 2;
 
 private:

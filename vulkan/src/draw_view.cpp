@@ -49,6 +49,7 @@ MapPass passOf(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, 
     MapPass pass;
     pass.commands = commands;
     pass.formats = mapFormats(optionsOf(plan, view), view.projection.orthographic);
+    pass.classic.formats = classicFormats(optionsOf(plan, view));
     pass.plan = &plan;
     pass.view = &view;
     pass.view_index = index;

@@ -26,7 +26,7 @@ constexpr const char* kDrawingFins = "draw fins of smoothies";
 enum FinBinding : std::uint32_t { kFinElements, kFinTriangles, kFinPositions, kFinBindingCount };
 constexpr std::array<VkDescriptorType, kFinBindingCount> kFinTypes{
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-constexpr std::array kMapType{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}; // as MapPass::first_surface
+constexpr std::array kMapType{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}; // as ClassicPass::first_surface
 constexpr VkShaderStageFlags kFinStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 /// Push constants of fin_pass.glsl.
@@ -48,7 +48,7 @@ FinPush pushOf(const MapPass& pass)
     push.tile = {static_cast<float>(tile.x), static_cast<float>(tile.y), 0.5F * static_cast<float>(tile.width),
                  0.5F * static_cast<float>(tile.height)};
     const std::uint32_t reach = optionsOf(*pass.plan, *pass.view).asked().smoothies.reach_texels;
-    push.rule = {static_cast<float>(reach), pass.first_quantum, static_cast<float>(tile.layer),
+    push.rule = {static_cast<float>(reach), pass.classic.first_quantum, static_cast<float>(tile.layer),
                  pass.view->projection.clamp_near ? 0.0F : 1.0F};
     return push;
 }
@@ -135,15 +135,16 @@ void FinDrawer::Impl::checkPass(const MapPass& pass) const
     if (set == VK_NULL_HANDLE) {
         refuseUse(kDrawingFins, "no frame has begun", "call beginFrame() first");
     }
-    if (!pass.formats.fins || pass.plan == nullptr || pass.view == nullptr || pass.first_surface == VK_NULL_HANDLE) {
-        refuseUse(kDrawingFins, "the pass is none of fins", "hand in passes with MapPassFormats::fins, as they come");
+    if (!pass.classic.formats.fins || pass.plan == nullptr || pass.view == nullptr ||
+        pass.classic.first_surface == VK_NULL_HANDLE) {
+        refuseUse(kDrawingFins, "the pass is none of fins", "hand in passes with ClassicFormats::fins, as they come");
     }
 }
 
 void FinDrawer::Impl::bind(const MapPass& pass)
 {
     const bool placed = pass.placement != VK_NULL_HANDLE;
-    const std::array both{set, pass.first_surface};
+    const std::array both{set, pass.classic.first_surface};
     device.vk.CmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[placed ? 1 : 0].get());
     device.vk.CmdBindDescriptorSets(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout.get(), 0,
                                     static_cast<std::uint32_t>(both.size()), both.data(), 0, nullptr);

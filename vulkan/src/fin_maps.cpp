@@ -21,7 +21,6 @@ MapPassFormats finFormats()
     MapPassFormats formats;
     formats.colour = kFinFormat;
     formats.depth = kFinOrderFormat;
-    formats.fins = true;
     return formats;
 }
 
@@ -150,9 +149,8 @@ void FinMaps::recordMap(const MapJob& job, std::uint32_t index) const
     device_.vk.CmdSetScissor(job.commands, 0, 1, &area);
     MapPass pass = passOf(job.commands, job.plan, index, VK_COLOR_COMPONENT_R_BIT);
     pass.formats = finFormats();
+    pass.classic = {{.fins = true}, set_, quantum_};
     pass.casters = castersOf(job.plan, view, CasterShare::all);
-    pass.first_surface = set_;
-    pass.first_quantum = quantum_;
     job.draw(pass);
     device_.vk.CmdEndRendering(job.commands);
     device_.endLabel(job.commands);

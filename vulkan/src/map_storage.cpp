@@ -42,20 +42,26 @@ const MapStorage& mapStorage(MapFormat format)
 MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic)
 {
     const MapStorage& storage = mapStorage(options.format());
-    const bool back_faces = options.asked().faces == CasterFaces::back;
     if (options.filterable()) { // moments are made of the depths
         return {VK_FORMAT_UNDEFINED, storage.depth, static_cast<VkSampleCountFlagBits>(options.moments().samples),
-                !orthographic,       back_faces,    options.asked().cull};
+                !orthographic};
     }
-    const bool paraboloid = options.technique().partition == Partition::paraboloid;
-    const bool over_w = options.moments().metric == DepthMetricKind::z_over_w; // the rasteriser's own
-    MapPassFormats formats{
-        storage.colour, storage.depth,       VK_SAMPLE_COUNT_1_BIT, storage.depthOnly() && !orthographic && !over_w,
-        back_faces,     options.asked().cull};
-    formats.ids = options.traits().ids;
-    formats.pieces = formats.ids && options.ids().of == IdOf::face;
-    formats.paraboloid = paraboloid;
-    formats.write_frag_depth = formats.write_frag_depth || paraboloid; // the rasteriser's own says nothing
+    const bool paraboloid = options.technique().partition == Partition::paraboloid; // the rasteriser's own says nothing
+    const bool over_w = options.moments().metric == DepthMetricKind::z_over_w;      // the rasteriser's own
+    return {storage.colour, storage.depth, VK_SAMPLE_COUNT_1_BIT,
+            paraboloid || (storage.depthOnly() && !orthographic && !over_w)};
+}
+
+ClassicFormats classicFormats(const ResolvedOptions& options)
+{
+    ClassicFormats formats;
+    formats.back_faces = options.asked().faces == CasterFaces::back;
+    formats.cull = options.asked().cull;
+    if (!options.filterable()) {
+        formats.ids = options.traits().ids;
+        formats.pieces = formats.ids && options.ids().of == IdOf::face;
+        formats.paraboloid = options.technique().partition == Partition::paraboloid;
+    }
     return formats;
 }
 

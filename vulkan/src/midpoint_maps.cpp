@@ -104,9 +104,9 @@ void MidpointMaps::drawSurfaces(const MapJob& job, std::uint32_t view)
         job.draw(pass);
         device_.vk.CmdEndRendering(commands);
         makeReadable(commands, surface);
-        pass.formats.behind_first = true;
-        pass.first_surface = first_;
-        pass.first_quantum = depthRounding(storage_.depth);
+        pass.classic.formats.behind_first = true;
+        pass.classic.first_surface = first_;
+        pass.classic.first_quantum = depthRounding(storage_.depth);
     }
 }
 

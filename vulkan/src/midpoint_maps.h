@@ -32,7 +32,7 @@ private:
     Device& device_;
     const MapStorage& storage_;
     Sampler sampler_;
-    DescriptorSets first_sets_; // MapPass::first_surface
+    DescriptorSets first_sets_; // ClassicPass::first_surface
     DescriptorSets both_sets_;
     PipelineLayout layout_;
     Pipeline pipeline_;

@@ -19,18 +19,14 @@ constexpr VkFormat kBlockerFormat = VK_FORMAT_D32_SFLOAT;
 
 } // namespace
 
-MapPassFormats blockerFormats(bool orthographic, bool paraboloid)
+MapPassFormats blockerFormats(bool orthographic)
 {
-    return {.depth = kBlockerFormat, .write_frag_depth = !orthographic, .paraboloid = paraboloid};
+    return {.depth = kBlockerFormat, .write_frag_depth = !orthographic};
 }
 
-MapPassFormats tintFormats(bool paraboloid)
+MapPassFormats tintFormats()
 {
-    return {.colour = kTintFormat,
-            .depth = kBlockerFormat,
-            .write_frag_depth = true,
-            .blended = true,
-            .paraboloid = paraboloid};
+    return {.colour = kTintFormat, .depth = kBlockerFormat, .write_frag_depth = true, .blended = true};
 }
 
 void TintMaps::makeImages(const MapPages& pages, std::uint32_t layers)
@@ -132,13 +128,14 @@ void TintMaps::draw(const MapJob& job, std::uint32_t index)
     beginViewLabel(device_, job.commands, job.plan, index);
     MapPass pass = passOf(job.commands, job.plan, index, 0);
     pass.casters = castersOf(job.plan, view, CasterShare::all);
-    pass.formats = blockerFormats(view.projection.orthographic, view.projection.paraboloid);
+    pass.formats = blockerFormats(view.projection.orthographic);
+    pass.classic.formats = {.paraboloid = view.projection.paraboloid};
     beginRendering(job.commands, view.place.tile, VK_NULL_HANDLE);
     job.draw(pass);
     device_.vk.CmdEndRendering(job.commands);
     depth.old_layout = depth.new_layout;
     recordBarrier(device_, job.commands, depth);
-    pass.formats = tintFormats(view.projection.paraboloid);
+    pass.formats = tintFormats();
     pass.colour_mask =
         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
     beginRendering(job.commands, view.place.tile, tints_.image().layer(layer));

@@ -18,8 +18,8 @@
 namespace gnomon::vulkan {
 
 /// What blocks light, in the depth image that blended casters are tested against.
-[[nodiscard]] MapPassFormats blockerFormats(bool orthographic, bool paraboloid);
-[[nodiscard]] MapPassFormats tintFormats(bool paraboloid);
+[[nodiscard]] MapPassFormats blockerFormats(bool orthographic);
+[[nodiscard]] MapPassFormats tintFormats();
 
 class TintMaps {
 public:

@@ -8,7 +8,7 @@
 //   else                      nothing: the rasteriser's depth is the metric
 // Of an object that clip planes cut the vertex shader writes gnomonCasterInside() to gl_ClipDistance, one for each plane;
 // or passes them on, and the fragment shader discards where one is negative.
-// Of MapPassFormats::paraboloid it writes gnomonCasterParaboloid() to gl_Position, passes on clip.xyz and
+// Of ClassicFormats::paraboloid it writes gnomonCasterParaboloid() to gl_Position, passes on clip.xyz and
 // gnomonCasterRim(), and the fragment shader takes the metric from gnomonCasterRadial().
 // In a pass of several views (MapPass::view_count) the vertex shader also writes the view's number to gl_Layer.
 // Every name that this declares begins with gnomon or GNOMON.
@@ -36,7 +36,7 @@ float gnomonCasterInside(vec3 p, vec4 clip_plane)
     return casterInside(p, clip_plane);
 }
 
-// `clip` by MapPass::clip_from_world, of a pass with MapPassFormats::paraboloid: gl_Position, and what is to be
+// `clip` by MapPass::clip_from_world, of a pass with ClassicFormats::paraboloid: gl_Position, and what is to be
 // interpolated for gnomonCasterRadial().
 vec4 gnomonCasterParaboloid(vec4 clip)
 {
@@ -67,22 +67,22 @@ vec4 gnomonCasterTexel(int holding, float metric)
     return casterTexel(holding, metric);
 }
 
-// Of a pass with MapPassFormats::ids, to attachment 0 instead. `id`: CasterId::id (gnomon/pack/caster_rows.h), the same
+// Of a pass with ClassicFormats::ids, to attachment 0 instead. `id`: CasterId::id (gnomon/pack/caster_rows.h), the same
 // all over an object; `depth`: dot(CasterId::depth_ws, (p, 1)), affine in the point as the metric is.
 vec4 gnomonCasterIdTexel(float id, float depth)
 {
     return casterIdTexel(id, depth);
 }
 
-// Of a pass with MapPassFormats::pieces: what goes there as `id`. `first`: CasterId::id; `piece`: of the vertex or the
+// Of a pass with ClassicFormats::pieces: what goes there as `id`. `first`: CasterId::id; `piece`: of the vertex or the
 // triangle, counted from 0 in its object, as the mask's pixels have it; `ids`: CasterId::ids.
 float gnomonCasterPieceId(float first, uint piece, float ids)
 {
     return casterPieceId(first, float(piece & uint(kMostPieces - 1)), ids);
 }
 
-// Of a pass with MapPassFormats::behind_first: discard the fragment where this is false. `stored`: gnomonCasterDepth()
-// of the metric, or of gl_FragCoord.z where nothing is written to gl_FragDepth; `first`: MapPass::first_surface at
+// Of a pass with ClassicFormats::behind_first: discard the fragment where this is false. `stored`: gnomonCasterDepth()
+// of the metric, or of gl_FragCoord.z where nothing is written to gl_FragDepth; `first`: ClassicPass::first_surface at
 // gl_FragCoord.xy; `quantum`: MapPass::first_quantum.
 bool gnomonCasterBehind(float stored, float first, float quantum)
 {

@@ -5,7 +5,7 @@
 // kDepthAlone for all others; of a depth-only map that says MapPassFormats::write_frag_depth, write casterStored() to
 // gl_FragDepth; else nothing, because the rasteriser's depth is the metric then. In a pass of several views (MapPass::
 // view_count) write the view's number to gl_Layer, too.
-// Of a paraboloid's map (MapPassFormats::paraboloid) edges are straight from vertex to vertex, where they should be bent, but
+// Of a paraboloid's map (ClassicFormats::paraboloid) edges are straight from vertex to vertex, where they should be bent, but
 // depths are exact: each texel's ray of light is met with the triangle's plane.
 #ifndef GNOMON_CASTER_GLSL
 #define GNOMON_CASTER_GLSL
@@ -76,7 +76,7 @@ GN_FN real4 casterTexel(int holding, real metric)
     return pairedTexel(holding, casterStored(metric));
 }
 
-// Of a map of ids (MapPassFormats::ids): what stands for the object, and beside it a depth, where the format has room.
+// Of a map of ids (ClassicFormats::ids): what stands for the object, and beside it a depth, where the format has room.
 GN_FN real4 casterIdTexel(real id, real depth)
 {
     return real4(id, casterStored(depth), real(0.0), real(0.0));

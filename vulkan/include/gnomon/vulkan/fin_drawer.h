@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws fins of smoothies for hosts with ordinary meshes, where DrawCasters is called for them (MapPassFormats::fins).
+// Draws fins of smoothies for hosts with ordinary meshes, where DrawCasters is called for them (ClassicFormats::fins).
 // Silhouettes are found on the GPU, from positions where they are when they are drawn, so skinned and morphed meshes
 // need nothing more. Based on: E. Chan, F. Durand, "Rendering Fake Soft Shadows with Smoothies", EGSR 2003.
 #pragma once

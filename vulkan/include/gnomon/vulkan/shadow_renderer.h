@@ -9,6 +9,7 @@
 #include <gnomon/pack/compact_mask.h>
 #include <gnomon/pack/depth_layers.h>
 #include <gnomon/plan.h>
+#include <gnomon/vulkan/classic_pass.h>
 #include <gnomon/vulkan/device_view.h>
 #include <gnomon/vulkan/profiler.h>
 
@@ -60,7 +61,7 @@ struct ShadowRendererOptions {
     /// fewer or some ended early (lib/raymarch.glsl); between them where a pixel reads two cascades. Pixels that face
     /// away from the light or are in no map have 0 and 1 as ever.
     bool shows_rays = false;
-    /// The callback that draws casters also draws fins (MapPassFormats::fins; FinDrawer is such a callback). False:
+    /// The callback that draws casters also draws fins (ClassicFormats::fins; FinDrawer is such a callback). False:
     /// prepare() refuses lights with filter smoothies.
     bool draws_fins = false;
 };
@@ -132,39 +133,20 @@ struct MapPassFormats {
     /// each has its own: give the metric's input the qualifier `sample` and the pipeline sampleShadingEnable with
     /// minSampleShading 1. A depth that is one for all samples of a texel is wrong where surfaces slope.
     bool write_frag_depth = false;
-    /// CasterFaces::back: leave out triangles that face the light, but not of casters that are open, thin or two-sided,
-    /// whose shadow would have holes.
-    bool back_faces = false;
-    /// CasterCull: triangles of all casters that are left out, open or not.
-    CasterCull cull = CasterCull::none;
-    /// CasterFaces::midpoint, the second pass of a map: discard fragments that do not lie behind MapPass::first_surface
-    /// (gnomonCasterBehind() in gnomon/caster.glsl). A callback that draws them all gets a map of the first surface.
-    bool behind_first = false;
     /// A map of tints: blended casters alone, and no others. Red, green and blue multiply what is there, and of
     /// alpha, which is the metric, the lesser one stays. Depth is tested and not written; gl_FragDepth = metric.
     bool blended = false;
-    /// ViewProjection::paraboloid: vertices are placed by gnomonCasterParaboloid(), and fragments have the metric of
-    /// gnomonCasterRadial() or are discarded (caster.glsl). It goes to gl_FragDepth beside a colour attachment, too.
-    bool paraboloid = false;
-    /// Filters id and depth-id: `colour` holds gnomonCasterIdTexel() of what pack::casterIdOf() says of the object.
-    bool ids = false;
-    /// Filter smoothies, once its map is drawn: fins along the casters' silhouettes (gnomon/shared/smoothie_fins.h)
-    /// into an image beside it, R32_UINT, packed as smoothies.h has them. gl_FragDepth = finOrder(); depth is tested,
-    /// LESS_OR_EQUAL, and written. Casters that have no fins keep the shadow that their map gives them.
-    bool fins = false;
-    /// IdOf::face, with `ids`: the id is gnomonCasterPieceId() of the triangle's piece.
-    bool pieces = false;
 
     bool operator==(const MapPassFormats&) const = default;
 };
 
 /// One map to draw, given to the host's callback. With MapPassFormats::blended those of `casters` are to be drawn that
-/// are blended, else those that are not; with MapPassFormats::fins their fins, and not they. Rendering has begun,
-/// viewport and scissor are set. The callback binds its pipelines (made for `formats`) and draws the casters; it must
-/// not end rendering.
+/// are blended, else those that are not. Rendering has begun, viewport and scissor are set. The callback binds its
+/// pipelines (made for `formats`) and draws the casters; it must not end rendering.
 struct MapPass {
     VkCommandBuffer commands = VK_NULL_HANDLE; // to record into
     MapPassFormats formats;                    // mapFormats() of the light's options and ViewProjection::orthographic
+    ClassicPass classic;                       // of use where options ask for a technique that it names
     const Plan* plan = nullptr;                // never null
     const View* view = nullptr;                // the first one that is drawn; never null
     std::uint32_t view_index = 0;              // its place in Plan::views
@@ -184,12 +166,6 @@ struct MapPass {
     /// buffer (to be bound with stride 0, at the rate of instances) and a storage buffer. VK_NULL_HANDLE: none.
     VkBuffer placement = VK_NULL_HANDLE;
     VkDeviceSize placement_offset = 0; // bytes
-    /// With MapPassFormats::behind_first: a set with one COMBINED_IMAGE_SAMPLER at binding 0, FRAGMENT stage, whose
-    /// texel at gl_FragCoord.xy is the depth of the first surface, and what that depth may be rounded by.
-    /// With MapPassFormats::fins such a set with the maps, a 2D array whose layer ViewPlace::tile says, and what their
-    /// depths may be off by.
-    VkDescriptorSet first_surface = VK_NULL_HANDLE;
-    float first_quantum = 0.0F; // in depths of the map
     /// How many views this pass draws: 1, or with CascadePass::layered several, from view_index on. Then what casts in
     /// view i of them, castersOf(i), is to be drawn to layer i (gl_Layer) with that view's own clip_from_world and
     /// metric from `plan`; casters, clip_from_world, metric_ws and `view` are those of the first. With
@@ -207,8 +183,7 @@ inline constexpr VkDeviceSize kPlacementStride = 48; // bytes
 /// Draws one map's casters.
 using DrawCasters = std::function<void(const MapPass&)>;
 
-/// What views of such options are drawn in: of ViewProjection::orthographic or not. Of CasterFaces::midpoint the first
-/// of a map's two passes; the second has behind_first, too.
+/// What views of such options are drawn in: of ViewProjection::orthographic or not. classicFormats() says the rest.
 [[nodiscard]] GNOMON_API MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic);
 
 /// An image of the renderer's. Holds until the next prepare() that says it made others.
