@@ -287,20 +287,6 @@ std::string worldText(const worlds::World& world)
            fact("--light", namesText(scene.lights)) + fact("page", "docs/scenes.md");
 }
 
-std::string claimText(const Claim& claim)
-{
-    std::string text = wrapped(fmt::format("{}, a claim: ", claim.id), claim.claim, 2);
-    for (const ClaimDocument& document : claimDocuments()) {
-        if (claim.id.starts_with(document.year)) {
-            text += fact("source", fmt::format("{}, {}", document.source, document.year));
-        }
-    }
-    text += fact("verdict", nameOf(claim.verdict));
-    text += fact("why", claim.why);
-    text += fact("try it", fmt::format("gnomon claims {}{}", claim.id, claim.quick ? " (takes seconds)" : ""));
-    return text + fact("page", "docs/claims.md");
-}
-
 std::string settingLine(const Setting& setting)
 {
     std::string facts;
