@@ -103,6 +103,7 @@ template <class Range>
 std::vector<std::string_view> namesIn(const Range& range)
 {
     std::vector<std::string_view> names;
+    names.reserve(std::size(range));
     for (const auto& one : range) {
         names.push_back(one.name);
     }

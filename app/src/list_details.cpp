@@ -128,8 +128,7 @@ std::string howToWrite(const Setting& setting)
 {
     const bool is_flag = setting.type == SettingType::flag;
     const std::string form = setting.form.empty() ? "0|1" : std::string(setting.form);
-    const std::string option =
-        is_flag ? fmt::format("--{}", setting.key) : fmt::format("--{} {}", setting.key, setting.form);
+    std::string option = is_flag ? fmt::format("--{}", setting.key) : fmt::format("--{} {}", setting.key, setting.form);
     const std::string set = fmt::format("--set {}={}", setting.key, form);
     if ((setting.subcommands & kFrames) == 0 || setting.command_line_only) {
         return option;
