@@ -152,11 +152,8 @@ struct Settings {
     std::optional<Sweep> sweep;
     std::string test_image; // metrics: the two files
     std::string truth_image;
-    std::vector<std::string> claims; // claims: their names; empty: all
-    std::string topic;               // list: what is asked about, empty: an overview; completion: the shell
-    std::vector<std::string> typed;  // completion: the words of the line that is to be completed, after "--"
-    bool quick = false;              // claims: only those that take seconds
-    bool markdown = false;           // claims: the tables of docs/claims.md
+    std::string topic;              // list: what is asked about, empty: an overview; completion: the shell
+    std::vector<std::string> typed; // completion: the words of the line that is to be completed, after "--"
 
     /// The text of every setting that has a value, by key; defaults included.
     std::map<std::string, std::string, std::less<>> values;
@@ -182,7 +179,6 @@ inline constexpr std::uint32_t kBench = 4;
 inline constexpr std::uint32_t kList = 8;
 inline constexpr std::uint32_t kCompare = 16;
 inline constexpr std::uint32_t kMetrics = 32;
-inline constexpr std::uint32_t kClaims = 64;
 inline constexpr std::uint32_t kView = 128;
 inline constexpr std::uint32_t kCompletion = 256;
 inline constexpr std::uint32_t kMan = 512;

@@ -2,14 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Is what the documents say still so?
 
-usage: check_docs.py [--write | --write-claims] ROOT [GNOMON]
+usage: check_docs.py [--write] ROOT [GNOMON]
 
 - links and pictures in every .md file lead to a file;
 - README's C++ block is what tests/docs/readme_snippet.cpp has between "README begin" and "README end";
 - with the program GNOMON: the table of docs/cli.md is what its declarations make (--write puts it there), and every
   option in a `gnomon` command of a document is one of them;
-- docs/claims.md has a row for each of its claims, with the verdict and the commands that are recorded. Their figures take
-  minutes and are not looked at; --write-claims tries all claims and puts the tables there;
 - docs/gpus.md is what tools/gpu_report.py makes of docs/gpus/*.json (--write puts it there);
 - the source that `gnomon list` gives of a technique is the first that its page names.
 Exit status 1 when something is not so.
@@ -26,7 +24,7 @@ import gpu_report
 from sources import project_files
 
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
-COMMAND = re.compile(r"(?:build/)?gnomon (render|compare|metrics|plan|bench|list|claims)\b([^`\n]*)")
+COMMAND = re.compile(r"(?:build/)?gnomon (render|compare|metrics|plan|bench|list)\b([^`\n]*)")
 # Options of the command line itself, which are no settings.
 PLAIN_OPTIONS = {"set", "preset", "json", "help", "version", "o"}
 
@@ -109,47 +107,6 @@ def cli_differences(root: Path, settings: dict[str, dict], write: bool) -> list[
             for row in sorted(rows)] or ["docs/cli.md: the options' order differs"]
 
 
-CLAIMS = re.compile(r"<!-- claims begin[^\n]*-->\n(.*?)<!-- claims end -->", re.DOTALL)
-
-
-def write_claims(root: Path, gnomon: str) -> list[str]:
-    """Tries all of them, which takes minutes."""
-    file = root / "docs/claims.md"
-    text = file.read_text(encoding="utf-8")
-    match = CLAIMS.search(text)
-    run = subprocess.run([gnomon, "claims", "--markdown"], capture_output=True, text=True, check=False)
-    if not match or not run.stdout:
-        return ["docs/claims.md: no tables between its marks" if not match else run.stderr.strip()]
-    file.write_text(text[:match.start(1)] + run.stdout + text[match.end(1):], encoding="utf-8")
-    return [] if run.returncode == 0 else [run.stderr.strip().splitlines()[-1]]
-
-
-def claim_differences(root: Path, claims: list[dict]) -> list[str]:
-    match = CLAIMS.search((root / "docs/claims.md").read_text(encoding="utf-8"))
-    if not match:
-        return ["docs/claims.md: no tables between its marks"]
-    found = []
-    rows = {}
-    for line in match.group(1).splitlines():
-        if line.startswith("| `"):
-            cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
-            rows[cells[0].strip("`")] = cells[1:]
-    commands = re.findall(r"^# (\S+)\n((?:gnomon [^\n]*\n)+)", match.group(1), re.MULTILINE)
-    commands = {name: lines.splitlines() for name, lines in commands}
-    for claim in claims:
-        name = claim["id"]
-        wanted = [claim[key].replace("|", "\\|") for key in ("claim", "recorded", "why")]
-        if name not in rows or [rows[name][0], rows[name][2].strip("*"), rows[name][3]] != wanted:
-            found.append(f"docs/claims.md: the row of {name} is not what is recorded (--write-claims)")
-        if commands.get(name, []) != claim["commands"]:
-            found.append(f"docs/claims.md: the commands of {name} are others (--write-claims)")
-    known = [claim["id"] for claim in claims]
-    found += [f"docs/claims.md: there is no claim {name}" for name in rows if name not in known]
-    if not found and list(rows) != known:
-        found.append("docs/claims.md: the claims' order differs (--write-claims)")
-    return found
-
-
 AUTHOR = re.compile(r"(?:\b[A-Z]\.[ -]?)+([A-Z]\w+)")  # the surname after initials
 
 
@@ -205,9 +162,7 @@ def main() -> int:
         listed = listed_by(arguments[1])
         settings = {setting["key"]: setting for setting in listed["settings"]}
         found += cli_differences(root, settings, write) + unknown_options(root, settings)
-        if "--write-claims" in sys.argv:
-            found += write_claims(root, arguments[1])
-        found += claim_differences(root, listed["claims"]) + source_differences(root, listed["choices"])
+        found += source_differences(root, listed["choices"])
     for line in found:
         print(line, file=sys.stderr)
     print(f"docs: {len(found)} faults")

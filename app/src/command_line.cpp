@@ -2,7 +2,6 @@
 #include "app/command_line.h"
 
 #include "app/preset.h"
-#include "claims/claim.h"
 #include "contestants.h"
 #include "files/files.h"
 #include "list.h"
@@ -85,7 +84,7 @@ void addValues(CLI::App& cli, const std::string& name, std::vector<std::string>&
 
 bool takesWords(const Subcommand& subcommand)
 {
-    return (subcommand.bit & (kFrames | kMetrics | kClaims | kList | kCompletion)) != 0;
+    return (subcommand.bit & (kFrames | kMetrics | kList | kCompletion)) != 0;
 }
 
 void addOptions(CLI::App& cli, const Subcommand& subcommand, Parsed& parsed)
@@ -118,9 +117,6 @@ bool isStrayFile(std::string_view word, const Subcommand& subcommand)
 {
     if (subcommand.bit == kMetrics) {
         return !word.starts_with("-") && !hasExtension(word, ".png") && !hasExtension(word, ".exr");
-    }
-    if (subcommand.bit == kClaims) {
-        return !word.starts_with("-") && claimsNamed(word).empty();
     }
     if (subcommand.bit == kList) {
         return !word.starts_with("-") && !isListed(word);
@@ -160,10 +156,9 @@ std::vector<std::string> takeJson(std::span<const std::string> arguments, const 
             throw UsageError(fmt::format("--json: \"{0}\" is no {1}, and a file for JSON must end in .json or be given "
                                          "as --json={0}",
                                          arguments[i + 1],
-                                         subcommand.bit == kMetrics  ? "image"
-                                         : subcommand.bit == kClaims ? "claim"
-                                         : subcommand.bit == kList   ? "name that list has"
-                                                                     : "scene"));
+                                         subcommand.bit == kMetrics ? "image"
+                                         : subcommand.bit == kList  ? "name that list has"
+                                                                    : "scene"));
         } else {
             json = "-";
         }
@@ -254,10 +249,6 @@ void applyWords(Settings& settings, const Parsed& parsed, const Subcommand& subc
 {
     if (subcommand.bit == kMetrics) {
         applyImages(settings, parsed.words);
-        return;
-    }
-    if (subcommand.bit == kClaims) {
-        settings.claims = parsed.words;
         return;
     }
     const bool is_scene = (subcommand.bit & kFrames) != 0;

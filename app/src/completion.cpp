@@ -216,10 +216,6 @@ void addWords(Answer& answer, const Subcommand& subcommand)
         for (const ListedName& listed_name : listedNames()) {
             answer.add(listed_name.name, listed_name.summary);
         }
-    } else if (subcommand.bit == kClaims) {
-        for (const std::string_view name : claimNames()) {
-            answer.add(name);
-        }
     } else if (subcommand.bit == kCompletion) {
         for (const std::string_view shell : shellNames()) {
             answer.add(shell);

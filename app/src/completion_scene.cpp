@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "completion_scene.h"
 
-#include "claims/claim.h"
 #include "files/files.h"
 
 #include "scene/gltf.h"
@@ -58,18 +57,6 @@ std::vector<std::string> namesInScene(std::string_view key, std::span<const std:
         }
     } catch (const Error&) { // the line itself will say so once it is run
         names.clear();
-    }
-    return names;
-}
-
-std::vector<std::string_view> claimNames()
-{
-    std::vector<std::string_view> names;
-    for (const ClaimDocument& document : claimDocuments()) {
-        names.push_back(document.year);
-        for (const Claim& claim : document.claims) {
-            names.push_back(claim.id);
-        }
     }
     return names;
 }

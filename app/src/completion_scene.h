@@ -12,7 +12,4 @@ namespace gnomon::app {
 /// Nothing for a scene that cannot be read, or takes too long to.
 [[nodiscard]] std::vector<std::string> namesInScene(std::string_view key, std::span<const std::string> words);
 
-/// The claims' names and their years.
-[[nodiscard]] std::vector<std::string_view> claimNames();
-
 } // namespace gnomon::app

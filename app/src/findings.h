@@ -10,7 +10,5 @@ namespace gnomon::app {
 
 [[nodiscard]] Json findByComparing(const Settings& settings);
 [[nodiscard]] Json findByTiming(const Settings& settings); // bench
-[[nodiscard]] Json findByPlanning(const Settings& settings);
-[[nodiscard]] Json findByMeasuring(const Settings& settings); // metrics
 
 } // namespace gnomon::app

@@ -3,7 +3,6 @@
 #include "list.h"
 
 #include "app/command_line.h"
-#include "claims/claim_report.h"
 #include "list_details.h"
 #include "list_json.h"
 #include "list_rules.h"
@@ -73,17 +72,6 @@ std::string presetsText()
     return text;
 }
 
-std::string claimsListText()
-{
-    std::string text = "Claims of the source documents, which `gnomon claims` tries:\n";
-    for (const ClaimDocument& document : claimDocuments()) {
-        for (const Claim& claim : document.claims) {
-            text += entryText(claim.id, claim.claim, 29);
-        }
-    }
-    return text;
-}
-
 std::string worldsText()
 {
     std::string text = "Built-in worlds, in the place of a scene's file:\n";
@@ -104,7 +92,6 @@ constexpr std::array kSections{
     Section{"settings", "every setting with unit, default and range", settingsText},
     Section{"presets", "settings of published techniques, and plain ones", presetsText},
     Section{"worlds", "built-in worlds", worldsText},
-    Section{"claims", "what the source documents claim", claimsListText},
 };
 
 std::string namesLine(std::string_view what, const std::vector<std::string_view>& names)
@@ -116,6 +103,7 @@ template <class Range>
 std::vector<std::string_view> namesIn(const Range& range)
 {
     std::vector<std::string_view> names;
+    names.reserve(std::size(range));
     for (const auto& one : range) {
         names.push_back(one.name);
     }
@@ -134,7 +122,7 @@ std::string overviewText()
             storageText();
     text += "\n" + wrapped("",
                            "One name in full: `gnomon list msm` has a value's settings, rules and source; so have "
-                           "`list pcf.kernel` a setting, `list rts` a world, `list 2011-bloom` a claim. All of a kind:",
+                           "`list pcf.kernel` a setting, and `list rts` a world. All of a kind:",
                            0);
     text += entryText("gnomon list", joined(namesIn(kSections), "|"), 14);
     text += namesLine("presets", namesIn(presets()));
@@ -192,9 +180,6 @@ std::string topicText(std::string_view name)
             texts.push_back(worldText(world));
         }
     }
-    for (const Claim* claim : claimsNamed(name)) {
-        texts.push_back(claimText(*claim));
-    }
     return fmt::format("{}", fmt::join(texts, "\n"));
 }
 
@@ -223,12 +208,6 @@ std::vector<ListedName> listedNames()
     }
     for (const worlds::World& world : worlds::all()) {
         add(world.name, world.summary);
-    }
-    for (const ClaimDocument& document : claimDocuments()) {
-        add(document.year, document.source);
-        for (const Claim& claim : document.claims) {
-            add(claim.id, claim.claim);
-        }
     }
     return names;
 }

@@ -12,8 +12,7 @@ struct ListedName {
     std::string_view name;
     std::string_view summary;
 };
-/// Sections, choices and their values, settings, presets, worlds, claims and their years. What several have in common
-/// is there once.
+/// Sections, choices and their values, settings, presets and worlds. What several have in common is there once.
 [[nodiscard]] std::vector<ListedName> listedNames();
 [[nodiscard]] bool isListed(std::string_view name);
 

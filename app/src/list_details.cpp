@@ -128,8 +128,7 @@ std::string howToWrite(const Setting& setting)
 {
     const bool is_flag = setting.type == SettingType::flag;
     const std::string form = setting.form.empty() ? "0|1" : std::string(setting.form);
-    const std::string option =
-        is_flag ? fmt::format("--{}", setting.key) : fmt::format("--{} {}", setting.key, setting.form);
+    std::string option = is_flag ? fmt::format("--{}", setting.key) : fmt::format("--{} {}", setting.key, setting.form);
     const std::string set = fmt::format("--set {}={}", setting.key, form);
     if ((setting.subcommands & kFrames) == 0 || setting.command_line_only) {
         return option;
@@ -285,20 +284,6 @@ std::string worldText(const worlds::World& world)
     return wrapped(fmt::format("{}, a built-in world: ", world.name), world.summary, 2) +
            fact("write", fmt::format("gnomon render {}", world.name)) + fact("--camera", namesText(scene.views)) +
            fact("--light", namesText(scene.lights)) + fact("page", "docs/scenes.md");
-}
-
-std::string claimText(const Claim& claim)
-{
-    std::string text = wrapped(fmt::format("{}, a claim: ", claim.id), claim.claim, 2);
-    for (const ClaimDocument& document : claimDocuments()) {
-        if (claim.id.starts_with(document.year)) {
-            text += fact("source", fmt::format("{}, {}", document.source, document.year));
-        }
-    }
-    text += fact("verdict", nameOf(claim.verdict));
-    text += fact("why", claim.why);
-    text += fact("try it", fmt::format("gnomon claims {}{}", claim.id, claim.quick ? " (takes seconds)" : ""));
-    return text + fact("page", "docs/claims.md");
 }
 
 std::string settingLine(const Setting& setting)

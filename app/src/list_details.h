@@ -4,7 +4,6 @@
 
 #include "app/preset.h"
 #include "app/settings.h"
-#include "claims/claim.h"
 
 #include "worlds/worlds.h"
 
@@ -28,7 +27,6 @@ namespace gnomon::app {
 [[nodiscard]] std::string presetText(const Preset& preset);
 /// Makes the world, to name its views and lights.
 [[nodiscard]] std::string worldText(const worlds::World& world);
-[[nodiscard]] std::string claimText(const Claim& claim);
 
 /// A setting in a line or two, as lists of them have it.
 [[nodiscard]] std::string settingLine(const Setting& setting);

@@ -2,7 +2,6 @@
 #include "list_json.h"
 
 #include "app/preset.h"
-#include "claims/claim_report.h"
 #include "doc_pages.h"
 #include "list_details.h"
 #include "list_rules.h"
@@ -103,29 +102,16 @@ Json worldsNamed(std::string_view name)
     return rows;
 }
 
-Json claimsOfName(std::string_view name)
-{
-    if (name.empty()) {
-        return recordedClaimsJson();
-    }
-    Json rows = Json::array();
-    const std::vector<const Claim*> named = claimsNamed(name);
-    for (const Json& row : recordedClaimsJson()) {
-        if (std::ranges::any_of(named, [&row](const Claim* claim) { return row["id"] == claim->id; })) {
-            rows.push_back(row);
-        }
-    }
-    return rows;
-}
-
 struct JsonPart {
     std::string_view section; // what the section is called on the command line
     const char* key;
     Json (*rows)(std::string_view name);
 };
-constexpr JsonPart kParts[] = {{"choices", "choices", choicesNamed},    {"rules", "refused", refusedNamed},
-                               {"settings", "settings", settingsNamed}, {"presets", "presets", presetsNamed},
-                               {"worlds", "worlds", worldsNamed},       {"claims", "claims", claimsOfName}};
+constexpr JsonPart kParts[] = {{"choices", "choices", choicesNamed},
+                               {"rules", "refused", refusedNamed},
+                               {"settings", "settings", settingsNamed},
+                               {"presets", "presets", presetsNamed},
+                               {"worlds", "worlds", worldsNamed}};
 
 } // namespace
 

@@ -165,8 +165,7 @@ std::string aroundText()
 {
     std::string text = heading("EXIT STATUS");
     text += entry("0", "Success.");
-    text += entry("1", "A failure, with one line on standard error. Also: counters of bench --against have grown, or a "
-                       "verdict of claims is not the recorded one.");
+    text += entry("1", "A failure, with one line on standard error. Also: counters of bench --against have grown.");
     text +=
         entry("2", "Wrong usage, with one line on standard error. Options that are known and change nothing are told "
                    "there too, but refused with --strict alone.");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // `gnomon metrics`: how far one image is from another, without a scene.
-#include "findings.h"
 #include "image_metrics.h"
 #include "result_json.h"
 #include "streams.h"
@@ -111,12 +110,6 @@ MeasuredImages measureFiles(const Settings& settings)
 }
 
 } // namespace
-
-Json findByMeasuring(const Settings& settings)
-{
-    const MeasuredImages measured = measureFiles(settings);
-    return metricsJson(measured.metrics, settings, measured.test);
-}
 
 int runMetrics(const Settings& settings)
 {

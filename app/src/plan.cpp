@@ -3,7 +3,6 @@
 // says the same on every machine; but for lvsm's layers of depth where they follow what is drawn (lloyd): those are
 // drawn and read back.
 #include "app/shot.h"
-#include "findings.h"
 #include "plan_layers.h"
 #include "progress.h"
 #include "result_json.h"
@@ -195,12 +194,6 @@ Json planJson(const Settings& settings, PlanRun& run)
 }
 
 } // namespace
-
-Json findByPlanning(const Settings& settings)
-{
-    PlanRun run(settings);
-    return planJson(settings, run);
-}
 
 int runPlan(const Settings& settings)
 {

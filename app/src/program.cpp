@@ -34,8 +34,6 @@ constexpr std::array kSubcommands{
                "Prints the choices and what is refused and why, or one NAME in full.", runList},
     Subcommand{"gpus", kGpus, "[options]", "Lists this machine's GPUs: what each can, what is left out and why.",
                runGpus},
-    Subcommand{"claims", kClaims, "[NAME|YEAR...] [options]",
-               "Tries what the source documents claim; list has the claims.", runClaims},
     Subcommand{"completion", kCompletion, "bash|zsh|fish", "Prints the shell's completion of gnomon's command lines.",
                runCompletion},
     Subcommand{"man", kMan, "", "Prints the manual page, for man to show.", runMan},

@@ -258,9 +258,9 @@ const std::vector<Setting>& rows()
         {.key = "seed", .group = Group::run, .type = integer, .form = "N", .default_text = "1", .min = 0, .max = 9e15,
          .doc = "everything random", .apply = [](Settings& s, const Value& v) { s.seed = static_cast<std::uint64_t>(v.integer); }},
         {.key = "gpu", .group = Group::run, .type = text, .form = "NAME", .doc = "part of a GPU's name, or software; else the first real one",
-         .subcommands = kFrames | kClaims, .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.gpu = v.text; }},
+         .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.gpu = v.text; }},
         {.key = "validate", .group = Group::run, .type = flag, .default_text = "0", .doc = "Vulkan validation; a message makes the run fail",
-         .subcommands = kFrames | kClaims, .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.validate = v.flag; }},
+         .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.validate = v.flag; }},
         {.key = "strict", .group = Group::run, .type = flag, .default_text = "0", .doc = "refuse options without effect, which are told else",
          .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.strict = v.flag; }},
         {.key = "limit", .group = Group::run, .type = text, .form = "NAME=N", .doc = "raise a limit of the scene reader, as its message says", .repeatable = true,
@@ -292,12 +292,8 @@ const std::vector<Setting>& rows()
          .subcommands = kCompare, .apply = [](Settings& s, const Value& v) { s.equal_error = v.flag; }},
         {.key = "sweep", .group = Group::result, .type = text, .form = "KEY=FROM:TO:STEPS[:log]", .doc = "the error of each technique over values of any number",
          .subcommands = kCompare, .apply = applySweep},
-        {.key = "quick", .group = Group::result, .type = flag, .default_text = "0", .doc = "only claims that take seconds and depend on no clock",
-         .subcommands = kClaims, .apply = [](Settings& s, const Value& v) { s.quick = v.flag; }},
-        {.key = "markdown", .group = Group::result, .type = flag, .default_text = "0", .doc = "write the tables of docs/claims.md",
-         .subcommands = kClaims, .apply = [](Settings& s, const Value& v) { s.markdown = v.flag; }},
         {.key = "json", .group = Group::result, .type = text, .form = "[FILE]", .doc = "JSON to FILE (*.json), or to stdout with - or nothing",
-         .subcommands = kPlan | kBench | kList | kCompare | kMetrics | kClaims | kGpus, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.json = v.text; }},
+         .subcommands = kPlan | kBench | kList | kCompare | kMetrics | kGpus, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.json = v.text; }},
         // clang-format on
     };
     return table;

@@ -15,7 +15,6 @@ int runPlan(const Settings& settings);
 int runBench(const Settings& settings);
 int runList(const Settings& settings);
 int runGpus(const Settings& settings);
-int runClaims(const Settings& settings);
 int runView(const Settings& settings);
 int runCompletion(const Settings& settings);
 int runMan(const Settings& settings);

@@ -41,7 +41,6 @@ TEST(Completion, AnswersByTheTables)
     EXPECT_EQ(wordsAfter({"render", "--set", "pcf.kernel=5"}), Words{"pcf.kernel=5x5"});
     EXPECT_EQ(wordsAfter({"render", "--preset", "rts"}), Words{"rts-2011"});
     EXPECT_EQ(wordsAfter({"list", "msm.s"}), Words{"msm.solver"});
-    EXPECT_EQ(wordsAfter({"claims", "2011-bloo"}), Words{"2011-bloom"});
     EXPECT_EQ(wordsAfter({"completion", ""}), (Words{"bash", "zsh", "fish"}));
     EXPECT_EQ(wordsAfter({"compare", "--sweep", "map-s"}), Words{"map-size="});
     EXPECT_EQ(wordsAfter({"help", "pl"}), Words{"plan"});
@@ -171,7 +170,6 @@ TEST_F(Bash, Completes)
     EXPECT_EQ(after("gnomon render --technique pcf+sd"), Words{"pcf+sdsm"});
     EXPECT_EQ(after("gnomon compare --techniques hard,pcs"), Words{"hard,pcss"});
     EXPECT_EQ(after("gnomon plan ring --light lantern\\ 4"), (Words{"lantern\\ 4", "lantern\\ 41", "lantern\\ 42"}));
-    EXPECT_EQ(after("gnomon claims 2011-bloo"), Words{"2011-bloom"});
     EXPECT_EQ(after("gnomon nonsense "), Words{});
 }
 

@@ -63,7 +63,7 @@ TEST(List, FitsAFewScreensAndNamesAllChoicesAndRules)
 TEST(List, HasEveryNameOnAtMostAHundredColumns)
 {
     std::string section;
-    for (const char* name : {"choices", "rules", "settings", "presets", "worlds", "claims"}) {
+    for (const char* name : {"choices", "rules", "settings", "presets", "worlds"}) {
         section += list({name}).out;
     }
     for (const app::ListedName& name : app::listedNames()) {
@@ -144,7 +144,7 @@ TEST(List, KnowsWhichRulesAreAValuesOwn)
     EXPECT_EQ(static_cast<std::size_t>(all), choiceRules().size()) << "every rule is some value's";
 }
 
-TEST(List, OfASettingAPresetAWorldAndAClaim)
+TEST(List, OfASettingAPresetAndAWorld)
 {
     const std::string setting = list({"draw-budget.ms"}).out;
     for (const char* part :
@@ -154,9 +154,6 @@ TEST(List, OfASettingAPresetAWorldAndAClaim)
     EXPECT_TRUE(has(list({"esm-2008"}).out, "\"esm.exponent\": 80"));
     const std::string world = list({"planes"}).out;
     EXPECT_TRUE(has(world, "top") && has(world, "sun, spot")) << world;
-    const std::string claim = list({"2011-bloom"}).out;
-    EXPECT_TRUE(has(claim, "A. Marinescu") && has(claim, "verdict")) << claim;
-    EXPECT_TRUE(has(list({"2011"}).out, "2011-bloom, a claim"));
 }
 
 TEST(List, JsonOfANameIsItsPartOfTheWhole)
@@ -172,7 +169,6 @@ TEST(List, JsonOfANameIsItsPartOfTheWhole)
     }
     EXPECT_EQ(app::listJson("settings")["settings"], whole["settings"]);
     EXPECT_EQ(app::listJson("rules")["refused"], whole["refused"]);
-    EXPECT_EQ(app::listJson("2011-bloom")["claims"].size(), 1U);
     EXPECT_EQ(app::listJson("filter")["choices"][0]["values"].size(), 14U);
 }
 

@@ -33,7 +33,7 @@ TEST(Help, FitsAScreen)
 {
     const test::Folder folder;
     for (const char* subcommand :
-         {"", "render", "compare", "metrics", "plan", "bench", "list", "gpus", "claims", "completion", "man"}) {
+         {"", "render", "compare", "metrics", "plan", "bench", "list", "gpus", "completion", "man"}) {
         std::vector<std::string> arguments{"--help"};
         if (*subcommand != '\0') {
             arguments.insert(arguments.begin(), subcommand);

@@ -35,7 +35,6 @@ const std::vector<Subject> kSubjects{
      {"bench", "--size", "0x0"}},
     {"list", {"list"}, {"list", "mms"}},
     {"gpus", {"gpus"}, {"gpus", "--gpu", "x"}},
-    {"claims", {"claims", "2011-range"}, {"claims", "2011-rang"}},
     {"help", {"render", "--help"}, {"rendr"}},
 };
 

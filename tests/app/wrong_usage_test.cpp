@@ -24,7 +24,6 @@ const std::vector<Wrong> kWrong{
     {"HelpOfOneSubcommand", {"help", "list", "render"}, 2, "one argument too many"},
     {"VersionOfNothing", {"--version", "list"}, 2, "one argument too many"},
     {"ListOfNothing", {"list", "mms"}, 2, "nothing called \"mms\" (did you mean \"msm\"?)"},
-    {"ClaimOfNothing", {"claims", "msm"}, 2, "`gnomon list claims` has them all"},
     {"NoValue", {"render", "planes", "--filter"}, 2, "--filter needs a value"},
     {"ReportTwice", {"compare", "--report", "a", "--report", "b"}, 2, "--report is given twice"},
     {"SweepTwice", {"compare", "--sweep", "map-size=64:128:2", "--sweep", "fov=20:40:2"}, 2, "--sweep is given twice"},

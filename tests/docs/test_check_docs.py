@@ -20,9 +20,6 @@ TREE = {
                    "| `--map-size` | `2048` | side (texels; 16 to 16384) | render, plan |\n"
                    "| `--set pcf.kernel=` | `3x3` | kernel (one of 2x2 3x3; with filter pcf) | render |\n"
                    "<!-- options end -->\n",
-    "docs/claims.md": "<!-- claims begin -->\n| name | claim | our figures | verdict | why |\n|---|---|---|---|---|\n"
-                      "| `2006-duel` | all do a \\| b | rmse 1.01 | **holds** | No way is left. |\n\n```\n"
-                      "# 2006-duel\ngnomon render rts --map-size 64\n```\n<!-- claims end -->\n",
     "docs/techniques/vsm.md": "# vsm\n\n## Source\nSteps: W. Donnelly, A. Lauritzen, \"Variance\", 2006. A. Marinescu, 2011.\n",
     "docs/techniques/auto.md": "# auto\n\n## Source\nD. B. Lloyd, 2006.\n",
 }
@@ -34,8 +31,6 @@ cat <<'END'
    "subcommands": ["render", "plan"]},
   {"key": "pcf.kernel", "default": "3x3", "doc": "kernel", "values": ["2x2", "3x3"], "used_with": "filter pcf",
    "option": false, "subcommands": ["render"]}],
- "claims": [{"id": "2006-duel", "document": "2006", "claim": "all do a | b", "commands": ["gnomon render rts --map-size 64"],
-   "quick": true, "recorded": "holds", "why": "No way is left."}],
  "choices": [{"choice": "filter", "values": [{"name": "vsm", "source": "W. Donnelly, A. Lauritzen, Variance, 2006",
    "page": "docs/techniques/vsm.md"}, {"name": "hard", "source": "L. Williams, 1978", "page": "docs/conventions.md"},
    {"name": "auto", "source": "S. Xie, 2007", "page": "docs/techniques/auto.md"}]}]}
@@ -51,11 +46,6 @@ FAULTS = [
     ("docs/cli.md", "<!-- options begin -->\n", "", "no table"),
     ("docs/cli.md", "--map-size 512", "--map-width 512", "no option map-width"),
     ("docs/cli.md", "--map-size 512", "--set map-widht=512", "no option map-widht"),
-    ("docs/claims.md", "**holds**", "**partly**", "the row of 2006-duel is not what is recorded"),
-    ("docs/claims.md", "No way is left.", "A way is left.", "the row of 2006-duel is not what is recorded"),
-    ("docs/claims.md", "--map-size 64", "--map-size 65", "the commands of 2006-duel are others"),
-    ("docs/claims.md", "| `2006-duel` |", "| `2006-due` |", "there is no claim 2006-due"),
-    ("docs/claims.md", "<!-- claims end -->", "", "no tables"),
     ("docs/techniques/vsm.md", "W. Donnelly, A. Lauritzen, \"Variance\", 2006. ", "", "its first source is Marinescu"),
     ("docs/techniques/vsm.md", "## Source", "## From", "its first source is none"),
 ]

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled alone: it has the library's arithmetic in double precision.
+// Prints the figures of claims that need no picture, as JSON, for tools/claims.py: they come from the library's own
+// arithmetic, in double precision, or from what a document prints.
 #define GNOMON_REAL double
-#include "worked_out.h"
-
 #include <gnomon/shared/depth_metric.h>
 #include <gnomon/shared/moments.h>
 #include <gnomon/shared/paired_depth.h>
@@ -14,9 +13,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <limits>
 #include <numbers>
+#include <string_view>
 
-namespace gnomon::app {
+namespace gnomon {
 namespace {
 
 constexpr double kStepOfSingle = 0x1p-24; // of floats just below 1
@@ -73,8 +76,7 @@ double worstOfBytes(const Code& code)
     return worst * 65535.0;
 }
 
-} // namespace
-
+/// How much more of [0, 1] one metre takes with planes at 1 and 100 m than at 1 and 10,000 m.
 double precisionOfTightPlanes()
 {
     const auto metre = [](double far_m) {
@@ -83,15 +85,14 @@ double precisionOfTightPlanes()
     return metre(100.0) / metre(10000.0);
 }
 
-double stepOfFloats()
-{
-    return floatStepAt(1.0);
-}
-
+/// The deviation of depth that two moments in single precision cannot tell from none, as a share of the range.
 double deviationLostByMoments()
 {
     return std::sqrt(shared::varianceOfRounding(kStepOfSingle));
 }
+
+// The largest difference, in metres, between a distance interpolated over a triangle 20 m across and the distance
+// itself, the triangle being some 10 m from the light: to the light's plane, to its place, and a lamp's clip-space z.
 
 double errorOfPlaneDistance()
 {
@@ -109,6 +110,8 @@ double errorOfClipDepth()
     return worstInterpolation([](const glm::dvec3& p) { return kFar_m / (kFar_m - kNear_m) * (p.z - kNear_m); });
 }
 
+/// The largest error of Chebyshev's bound for one occluder over one receiver, both parallel to the map, whatever share
+/// of the texel is covered.
 double errorOfPlanarBound()
 {
     constexpr double kOccluder = 0.3;
@@ -123,12 +126,14 @@ double errorOfPlanarBound()
     return worst;
 }
 
+/// Texels per degree at the edge of a map of so wide a field of view, by those in its middle.
 double densityAtEdge(double fov_deg)
 {
     const double cosine = std::cos(glm::radians(fov_deg / 2.0)); // of d tan(a) / d a
     return 1.0 / (cosine * cosine);
 }
 
+/// One step of depth at the far plane, in metres, near 0.1 m and far 1000 m, in so many bits.
 double stepOfBits(int bits)
 {
     return std::exp2(-bits) * (kFar_m - kNear_m);
@@ -141,6 +146,7 @@ double stepOfBitsInZOverW(int bits)
     return std::exp2(-bits) / slope;
 }
 
+/// By how much a step of depth grows when depth is moved into the half from 0.5 to 1: of codes of 16 bits.
 double coarserInUpperHalf()
 {
     constexpr double kCodes = 65536.0;
@@ -151,11 +157,13 @@ double coarserInUpperHalf()
     return kCodes / used;
 }
 
+/// The same of floats at a share of the range.
 double coarserInUpperHalf(double depth)
 {
     return floatStepAt(0.5 + 0.5 * depth) / 0.5 / floatStepAt(depth);
 }
 
+/// By how much a least variance against rounding shrinks, as a deviation, when depth is stored in -1 to 1.
 double finerBySign()
 {
     const double step = 0x1p-11; // of halves, which are what floats of a map are short of
@@ -165,6 +173,7 @@ double finerBySign()
     return deviation(0) / deviation(shared::kMomentRemap);
 }
 
+/// The largest error of depth in two bytes, in steps of 16 bits, as the document packs them.
 double errorOfPublishedBytes()
 {
     return worstOfBytes([](double depth) {
@@ -173,6 +182,7 @@ double errorOfPublishedBytes()
     });
 }
 
+/// The same, as ours are.
 double errorOfBytes()
 {
     return worstOfBytes([](double depth) {
@@ -180,6 +190,14 @@ double errorOfBytes()
         return shared::depthFromBytes(asByte(bytes.x), asByte(bytes.y));
     });
 }
+
+/// Of the fifteen taps of the published blur: the sum of their weights, where their centre lies in pixels, and the
+/// weight of the right side by that of the left.
+struct PublishedBlur {
+    double sum = 0.0;
+    double centre_px = 0.0;
+    double sides = 0.0;
+};
 
 PublishedBlur publishedBlur()
 {
@@ -197,14 +215,56 @@ PublishedBlur publishedBlur()
     return {sum, moment / sum, right / left};
 }
 
+/// Texels between the published taps of a kernel, whose offsets are divided by w, so many metres from the lamp.
 double publishedTapsApart(double distance_m)
 {
     return 1.0 / distance_m; // w is the depth along the lamp's axis
 }
 
-double stepOfFloatsBelow(double metres)
+struct Figure {
+    std::string_view name;
+    double value;
+};
+
+void print()
 {
-    return floatStepAt(metres);
+    const PublishedBlur blur = publishedBlur();
+    const Figure figures[] = {
+        {"precision_of_tight_planes", precisionOfTightPlanes()},
+        {"step_of_floats_below_1", floatStepAt(1.0)},
+        {"step_of_floats_below_1024", floatStepAt(1024.0)},
+        {"deviation_lost_by_moments", deviationLostByMoments()},
+        {"error_of_plane_distance_m", errorOfPlaneDistance()},
+        {"error_of_place_distance_m", errorOfPlaceDistance()},
+        {"error_of_clip_depth_m", errorOfClipDepth()},
+        {"error_of_planar_bound", errorOfPlanarBound()},
+        {"density_at_edge_of_120_degrees", densityAtEdge(120.0)},
+        {"step_of_24_bits_m", stepOfBits(24)},
+        {"step_of_24_bits_in_z_over_w_m", stepOfBitsInZOverW(24)},
+        {"coarser_codes_in_upper_half", coarserInUpperHalf()},
+        {"coarser_floats_in_upper_half_far", coarserInUpperHalf(0.99)},
+        {"coarser_floats_in_upper_half_near", coarserInUpperHalf(0.1)},
+        {"finer_by_sign", finerBySign()},
+        {"error_of_published_bytes", errorOfPublishedBytes()},
+        {"error_of_bytes", errorOfBytes()},
+        {"published_blur_sum", blur.sum},
+        {"published_blur_centre_px", blur.centre_px},
+        {"published_blur_sides", blur.sides},
+        {"published_taps_apart_at_10_m", publishedTapsApart(10.0)},
+    };
+    std::cout << std::setprecision(std::numeric_limits<double>::max_digits10);
+    char before = '{';
+    for (const Figure& figure : figures) {
+        std::cout << before << "\n  \"" << figure.name << "\": " << figure.value;
+        before = ',';
+    }
+    std::cout << "\n}\n";
 }
 
-} // namespace gnomon::app
+} // namespace
+} // namespace gnomon
+
+int main()
+{
+    gnomon::print();
+}
