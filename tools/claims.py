@@ -248,7 +248,7 @@ def cells(*texts: str) -> str:
 
 
 def markdown_of(tried: list[Tried], documents: list[Document]) -> str:
-    """A heading, a table and the commands of each document of which a claim was tried."""
+    """A heading and a table of each document of which a claim was tried."""
     text = ""
     for document in documents:
         here = [one for one in tried if one.claim in document.claims]
@@ -257,9 +257,7 @@ def markdown_of(tried: list[Tried], documents: list[Document]) -> str:
         text += f"## {document.source}, {document.year}\n\n" + cells("name", "claim", "our figures", "verdict", "why") + "|---" * 5 + "|\n"
         for one in here:
             text += cells(f"`{one.claim.id}`", one.claim.claim, "; ".join(figure_texts(one)), f"**{one.verdict}**", one.claim.why)
-        commands = "".join(f"# {one.claim.id}\n" + "".join(f"{command}\n" for command in one.claim.commands)
-                           for one in here if one.claim.commands)
-        text += (f"\n```\n{commands}```\n" if commands else "") + "\n"
+        text += "\n"
     return text
 
 
@@ -273,13 +271,10 @@ def page_faults(page: str, claims: list[Claim]) -> list[str]:
         if line.startswith("| `"):
             name, claim, _, *rest = (cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1])
             rows[name.strip("`")] = [claim, *rest]
-    commands = {name: lines.splitlines() for name, lines in re.findall(r"^# (\S+)\n((?:gnomon [^\n]*\n)+)", match[1], re.MULTILINE)}
     found = []
     for claim in claims:
         if rows.get(claim.id) != [text.replace("|", "\\|") for text in (claim.claim, f"**{claim.verdict}**", claim.why)]:
             found.append(f"{PAGE}: the row of {claim.id} is not what is recorded (tools/claims.py --write)")
-        if commands.get(claim.id, []) != list(claim.commands):
-            found.append(f"{PAGE}: the commands of {claim.id} are others (tools/claims.py --write)")
     known = [claim.id for claim in claims]
     found += [f"{PAGE}: there is no claim {name}" for name in rows if name not in known]
     return found or ([] if list(rows) == known else [f"{PAGE}: the claims' order differs (tools/claims.py --write)"])
