@@ -80,7 +80,7 @@ struct Planner::Impl {
     Views views;
     Schedule schedule;
     Plan plan;
-    FrameMemory told;         // that `plan` was made from
+    FrameMemory last_frame;   // that `plan` was made from
     std::uint64_t frames = 0; // planned so far
     bool settled = false;     // the plan would be made again: nothing in it was to be drawn or fading
     bool spoilt = false;      // a plan ended half way, because something threw
@@ -155,10 +155,10 @@ const Plan& Planner::plan(const Frame& given)
     }
     s.sights.remember();
     s.spoilt = true;
-    const bool again = s.told.holds(frame) && !frame.cut;
+    const bool again = s.last_frame.holds(frame) && !frame.cut;
     s.makePlan(frame, fault);
     s.plan.made_for.objects = given.objects != nullptr ? s.plan.made_for.objects : 0;
-    s.told.note(frame);
+    s.last_frame.note(frame);
     s.settled = again && s.settles();
     s.spoilt = false;
     return s.plan;
@@ -178,7 +178,7 @@ void Planner::Impl::makePlan(const Frame& frame, const Outcome& fault)
     plan.number = frames + 1;
     plan.cut = frame.cut || frames == 0;
     schedule.begin(plan);
-    sights.see(frame, fault, {frames, plan.cut || !told.sees(frame)}, plan);
+    sights.see(frame, fault, {frames, plan.cut || !last_frame.sees(frame)}, plan);
     placeInMask(plan);
     frustums.divide(sights, plan);
     schedule.foresee(sights, frustums, places, plan);
@@ -204,7 +204,7 @@ bool Planner::Impl::settles() const
 /// Would the frame's plan be the last one? Not where it depends on time, or is of another sample of the light.
 bool Planner::Impl::repeats(const Frame& frame) const
 {
-    return settled && !spoilt && !frame.cut && told.holds(frame) &&
+    return settled && !spoilt && !frame.cut && last_frame.holds(frame) &&
            std::ranges::none_of(sights.setups(), [](const Setup& setup) {
                return setup.recipe.converges() ||
                       (setup.recipe.motion != nullptr && setup.recipe.motion->stepping != Stepping::none);

@@ -99,18 +99,18 @@ std::uint64_t Frustums::texelsWanted(const Sights& sights, std::uint32_t light) 
 void Frustums::list(const Sights& sights, const Plan& plan)
 {
     listTenants(sights);
-    stands_.clear();
+    positions_.clear();
     frustums_.clear();
-    first_stands_.clear();
+    first_positions_.clear();
     for (std::uint32_t index = 0; index < plan.lights.size(); ++index) {
         const LightPlan& planned = plan.lights[index];
         const Setup& setup = sights.setups()[planned.options];
-        first_stands_.push_back(static_cast<std::uint32_t>(stands_.size()));
+        first_positions_.push_back(static_cast<std::uint32_t>(positions_.size()));
         if (planned.outcome.kind == OutcomeKind::ok && setup.recipe.hasMaps() && setup.sees()) {
-            addStands(sights, index, planned.steps);
+            addPositions(sights, index, planned.steps);
         }
     }
-    first_stands_.push_back(static_cast<std::uint32_t>(stands_.size()));
+    first_positions_.push_back(static_cast<std::uint32_t>(positions_.size()));
 }
 
 /// Each frustum of `multi` is a tenant of its own, so that the others keep their maps when one comes, goes or is sized
@@ -145,13 +145,14 @@ double Frustums::worthOf(std::uint32_t light, std::uint32_t tenant) const
     return sum > 0.0 ? grown[tenant - first_tenants_[light]].sum / sum : 1.0;
 }
 
-std::span<const Stand> Frustums::standsOf(std::uint32_t light) const
+std::span<const LightPosition> Frustums::positionsOf(std::uint32_t light) const
 {
-    return std::span(stands_).subspan(first_stands_[light], first_stands_[light + 1] - first_stands_[light]);
+    return std::span(positions_)
+        .subspan(first_positions_[light], first_positions_[light + 1] - first_positions_[light]);
 }
 
 /// A position keeps its slot, that is its maps, for as long as the sun has it.
-void Frustums::addStands(const Sights& sights, std::uint32_t index, const SunSteps& steps)
+void Frustums::addPositions(const Sights& sights, std::uint32_t index, const SunSteps& steps)
 {
     const Light& light = sights.frame().lights[index];
     const LightSight& sight = sights.lights()[index];
@@ -160,67 +161,67 @@ void Frustums::addStands(const Sights& sights, std::uint32_t index, const SunSte
         if (later && !steps.paired) {
             break;
         }
-        Stand stand;
-        stand.light = index;
-        stand.at = light;
+        LightPosition position;
+        position.light = index;
+        position.at = light;
         if (steps.stepping) {
-            stand.at.direction_ws = later ? steps.later_ws : steps.earlier_ws;
+            position.at.direction_ws = later ? steps.later_ws : steps.earlier_ws;
         }
-        stand.at = sampledLight(stand.at, sight.sample);
+        position.at = sampledLight(position.at, sight.sample);
         if (steps.paired) {
-            stand.sun = later ? SunPosition::later : SunPosition::earlier;
+            position.sun = later ? SunPosition::later : SunPosition::earlier;
         }
-        stand.read = !steps.alternate || stand.sun == steps.read;
+        position.read = !steps.alternate || position.sun == steps.read;
         if (recipe.pairs(light)) {
-            stand.slot = later ? 1 - sight.earlier_slot : sight.earlier_slot;
+            position.slot = later ? 1 - sight.earlier_slot : sight.earlier_slot;
         }
-        stand.first_frustum = static_cast<std::uint32_t>(frustums_.size());
+        position.first_frustum = static_cast<std::uint32_t>(frustums_.size());
         if (recipe.grows()) {
-            addGrown(stand);
+            addGrown(position);
         } else {
-            addDivided(sights, stand);
+            addDivided(sights, position);
         }
-        stand.frustum_count = static_cast<std::uint32_t>(frustums_.size()) - stand.first_frustum;
-        stands_.push_back(stand);
+        position.frustum_count = static_cast<std::uint32_t>(frustums_.size()) - position.first_frustum;
+        positions_.push_back(position);
     }
 }
 
-void Frustums::addGrown(const Stand& stand)
+void Frustums::addGrown(const LightPosition& position)
 {
-    std::uint32_t tenant = first_tenants_[stand.light];
-    for (const GrownFrustum& one : multi_.frustumsOf(stand.light)) {
+    std::uint32_t tenant = first_tenants_[position.light];
+    for (const GrownFrustum& one : multi_.frustumsOf(position.light)) {
         frustums_.push_back({one.slice, multi_.receiversOf(one), one.strength, tenant++, 0, one.side, 0});
     }
 }
 
-void Frustums::addDivided(const Sights& sights, const Stand& stand)
+void Frustums::addDivided(const Sights& sights, const LightPosition& position)
 {
-    const Setup& setup = sights.setups()[stand.at.options];
+    const Setup& setup = sights.setups()[position.at.options];
     const Recipe& recipe = setup.recipe;
     // A recipe with maps that predicts nothing has one. NOLINTNEXTLINE(clang-analyzer-core.uninitialized.UndefReturn)
-    const AutoDecision* const decision = recipe.predicts() ? &chooser_.decisionOf(recipe, stand.light) : nullptr;
+    const AutoDecision* const decision = recipe.predicts() ? &chooser_.decisionOf(recipe, position.light) : nullptr;
     const PartitionTraits& partition = decision != nullptr ? *decision->partition : *recipe.partition;
     slices_.clear();
-    partition.divide({stand.at, setup.camera, recipe.options.cascades}, slices_);
+    partition.divide({position.at, setup.camera, recipe.options.cascades}, slices_);
     if (const std::uint32_t segments = recipe.resolved.segments(); segments > 1) {
-        addSegments(sights, stand, segments);
+        addSegments(sights, position, segments);
     }
     for (std::uint32_t i = 0; i < slices_.size(); ++i) {
-        frustums_.push_back({slices_[i], sights.receiversOf(stand.light),
-                             recipe.searchesWarp() ? decision->strengths[i] : 1.0, first_tenants_[stand.light], i, 0,
+        frustums_.push_back({slices_[i], sights.receiversOf(position.light),
+                             recipe.searchesWarp() ? decision->strengths[i] : 1.0, first_tenants_[position.light], i, 0,
                              partition.fits_on_gpu ? recipe.mapsOf(partition) : 0});
     }
 }
 
 /// Puts them in the place of the one slice that there is.
-void Frustums::addSegments(const Sights& sights, const Stand& stand, std::uint32_t count)
+void Frustums::addSegments(const Sights& sights, const LightPosition& position, std::uint32_t count)
 {
-    const Setup& setup = sights.setups()[stand.at.options];
-    const std::span receivers = sights.receiversOf(stand.light);
+    const Setup& setup = sights.setups()[position.at.options];
+    const std::span receivers = sights.receiversOf(position.light);
     const Slice whole = slices_.front();
     slices_.clear();
-    planner_.divideTsm({sights.frame(), setup.recipe, setup.camera, receivers, receivers, stand.at, whole,
-                        wishes_[first_tenants_[stand.light]].side},
+    planner_.divideTsm({sights.frame(), setup.recipe, setup.camera, receivers, receivers, position.at, whole,
+                        wishes_[first_tenants_[position.light]].side},
                        count, setup.recipe.options.cascades.blend, slices_);
 }
 

@@ -25,7 +25,7 @@ struct LightFrustum {
 };
 
 /// One position that a light shines from, and its frustums.
-struct Stand {
+struct LightPosition {
     std::uint32_t light = 0; // index into Frame::lights
     Light at;                // the light, shining from there
     SunPosition sun = SunPosition::only;
@@ -65,10 +65,10 @@ public:
     /// The tenant's share of the light's claim to texels: 0 .. 1.
     [[nodiscard]] double worthOf(std::uint32_t light, std::uint32_t tenant) const;
     /// None of a light that cannot have any.
-    [[nodiscard]] std::span<const Stand> standsOf(std::uint32_t light) const;
-    [[nodiscard]] std::span<const LightFrustum> of(const Stand& stand) const
+    [[nodiscard]] std::span<const LightPosition> positionsOf(std::uint32_t light) const;
+    [[nodiscard]] std::span<const LightFrustum> of(const LightPosition& position) const
     {
-        return std::span(frustums_).subspan(stand.first_frustum, stand.frustum_count);
+        return std::span(frustums_).subspan(position.first_frustum, position.frustum_count);
     }
 
 private:
@@ -76,19 +76,19 @@ private:
     [[nodiscard]] MapWish decide(const Sights& sights, std::uint32_t index, LightPlan& planned);
     [[nodiscard]] MapWish wishOf(const Sights& sights, const Light& light, const GrownFrustum& frustum) const;
     void listTenants(const Sights& sights);
-    void addStands(const Sights& sights, std::uint32_t index, const SunSteps& steps);
-    void addGrown(const Stand& stand);
-    void addDivided(const Sights& sights, const Stand& stand);
-    void addSegments(const Sights& sights, const Stand& stand, std::uint32_t count);
+    void addPositions(const Sights& sights, std::uint32_t index, const SunSteps& steps);
+    void addGrown(const LightPosition& position);
+    void addDivided(const Sights& sights, const LightPosition& position);
+    void addSegments(const Sights& sights, const LightPosition& position, std::uint32_t count);
 
     AutoChooser chooser_;
     MultiPartition multi_;
     std::vector<MapWish> own_wishes_; // by light, of those that `multi_` does not divide
     std::vector<std::uint64_t> keys_;
     std::vector<MapWish> wishes_;
-    std::vector<std::uint32_t> first_tenants_; // by light, and one past the last
-    std::vector<std::uint32_t> first_stands_;  // by light, and one past the last
-    std::vector<Stand> stands_;
+    std::vector<std::uint32_t> first_tenants_;   // by light, and one past the last
+    std::vector<std::uint32_t> first_positions_; // by light, and one past the last
+    std::vector<LightPosition> positions_;
     std::vector<LightFrustum> frustums_;
     // Scratch.
     FrustumPlanner planner_;

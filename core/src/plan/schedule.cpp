@@ -47,7 +47,7 @@ Schedule::Schedule(const std::vector<Setup>& setups)
 
 void Schedule::forget()
 {
-    for (Known& light : known_) {
+    for (LightBefore& light : before_) {
         light = {};
     }
 }
@@ -70,9 +70,9 @@ void Schedule::follow(std::span<const Light> frame)
         keys_.push_back(light.key);
     }
     rows_.follow(keys_);
-    known_.resize(std::max<std::size_t>(known_.size(), rows_.end()));
+    before_.resize(std::max<std::size_t>(before_.size(), rows_.end()));
     for (const std::uint32_t row : rows_.gone()) {
-        known_[row] = {};
+        before_[row] = {};
     }
     lights_.assign(frame.size(), {});
 }
@@ -101,7 +101,7 @@ void Schedule::foreseeOf(Sights& sights, Frustums& frustums, const MapStore& sto
             continue;
         }
         Turn& turn = lights_[index];
-        const Known& known = knownOf(index);
+        const LightBefore& before = lightBefore(index);
         turn.bounded = true;
         turn.share = shares.shareOf(index);
         turn.is_same = isAsBefore(sights, index);
@@ -113,8 +113,8 @@ void Schedule::foreseeOf(Sights& sights, Frustums& frustums, const MapStore& sto
             });
         turn.kept_back = turn.keeps_views && recipe.grows() && frustums.differs(index);
         // Most lights have as much to draw as in the frame before.
-        turn.texels = turn.keeps_views && !turn.kept_back ? known.texels : frustums.texelsWanted(sights, index);
-        claims_.push_back({index, turn.share, turn.texels, known.waited, turn.keeps_views, false});
+        turn.texels = turn.keeps_views && !turn.kept_back ? before.texels : frustums.texelsWanted(sights, index);
+        claims_.push_back({index, turn.share, turn.texels, before.waited, turn.keeps_views, false});
     }
     order_.take(claims_, drawBudget(sights.frame(), recipe.options), recipe.options.longest_wait);
     for (const DrawTurn& claim : claims_) {
@@ -136,10 +136,10 @@ bool Schedule::isAsBefore(const Sights& sights, std::uint32_t index) const
 {
     const Frame& frame = sights.frame();
     const Light& light = frame.lights[index];
-    const Known& known = knownOf(index);
+    const LightBefore& before = lightBefore(index);
     const Setup& setup = sights.setups()[light.options];
-    const bool same = known.type == light.type && known.options == light.options && known.map_size == light.map_size;
-    return !frame.cut && frame.objects->identity() == objects_ && known.view_count > 0 && same &&
+    const bool same = before.type == light.type && before.options == light.options && before.map_size == light.map_size;
+    return !frame.cut && frame.objects->identity() == objects_ && before.view_count > 0 && same &&
            !setup.recipe.converges() && !setup.recipe.steps(light) && setup.sees();
 }
 
@@ -194,7 +194,7 @@ void Schedule::takeOf(const Results& results, std::uint32_t options)
         for (std::uint32_t i = planned.first_view; i < planned.first_view + planned.view_count; ++i) {
             turn.texels += texelsDue(results, i);
         }
-        claims_.push_back({index, turn.share, turn.texels, knownOf(index).waited, turn.keeps_views, false});
+        claims_.push_back({index, turn.share, turn.texels, lightBefore(index).waited, turn.keeps_views, false});
     }
     const Recipe& recipe = results.sights.setups()[options].recipe;
     order_.take(claims_, drawBudget(results.sights.frame(), recipe.options), recipe.options.longest_wait);
@@ -236,8 +236,8 @@ void Schedule::putViewsBack(const Results& results)
         const std::uint32_t first = planned.first_view;
         planned.first_view = static_cast<std::uint32_t>(next_views_.size());
         if (lights_[index].waits) {
-            planned.outcome = knownOf(index).outcome;
-            planned.waited = knownOf(index).waited + 1;
+            planned.outcome = lightBefore(index).outcome;
+            planned.waited = lightBefore(index).waited + 1;
             for (const View& view : viewsOf(index)) {
                 addBack(frame, asDrawn(view, index), casters_, {});
             }
@@ -285,11 +285,11 @@ void Schedule::note(const Results& results)
     for (std::uint32_t index = 0; index < lights_.size(); ++index) {
         const LightPlan& planned = results.plan.lights[index];
         const Light& light = results.sights.frame().lights[index];
-        Known& known = knownOf(index);
-        known = {};
+        LightBefore& before = lightBefore(index);
+        before = {};
         if (lights_[index].bounded) {
-            known = {light.type,         light.options,  light.map_size,        planned.first_view,
-                     planned.view_count, planned.waited, lights_[index].texels, planned.outcome};
+            before = {light.type,         light.options,  light.map_size,        planned.first_view,
+                      planned.view_count, planned.waited, lights_[index].texels, planned.outcome};
         }
     }
 }

@@ -55,8 +55,8 @@ public:
 
     [[nodiscard]] bool isKeptBack(std::uint32_t light) const { return takes_turns_ && lights_[light].kept_back; }
     /// It may wait without the other cascades of its light. The first one may not: it is drawn in each frame.
-    [[nodiscard]] bool hasOwnTurn(const Stand& stand, const Slice& slice) const;
-    [[nodiscard]] WideTurn wideTurn(const Sights& sights, const Places& places, const Stand& stand,
+    [[nodiscard]] bool hasOwnTurn(const LightPosition& position, const Slice& slice) const;
+    [[nodiscard]] WideTurn wideTurn(const Sights& sights, const Places& places, const LightPosition& position,
                                     const LightFrustum& frustum);
 
 private:
@@ -73,7 +73,7 @@ private:
         std::uint64_t texels = 0; // that have to be drawn for it, or are thought to have
     };
     /// A light in the plan before, by its key.
-    struct Known {
+    struct LightBefore {
         LightType type = LightType::directional;
         std::uint32_t options = 0;
         std::uint32_t map_size = 0;
@@ -93,12 +93,12 @@ private:
     };
 
     void follow(std::span<const Light> frame);
-    [[nodiscard]] Known& knownOf(std::size_t light) { return known_[rows_.rowOf(light)]; }
-    [[nodiscard]] const Known& knownOf(std::size_t light) const { return known_[rows_.rowOf(light)]; }
+    [[nodiscard]] LightBefore& lightBefore(std::size_t light) { return before_[rows_.rowOf(light)]; }
+    [[nodiscard]] const LightBefore& lightBefore(std::size_t light) const { return before_[rows_.rowOf(light)]; }
     /// The light's views in the plan before.
     [[nodiscard]] std::span<const View> viewsOf(std::size_t light) const
     {
-        return std::span(views_).subspan(knownOf(light).first_view, knownOf(light).view_count);
+        return std::span(views_).subspan(lightBefore(light).first_view, lightBefore(light).view_count);
     }
     void foreseeOf(Sights& sights, Frustums& frustums, const MapStore& store, const Plan& plan, std::uint32_t options);
     [[nodiscard]] bool isAsBefore(const Sights& sights, std::uint32_t light) const;
@@ -116,8 +116,8 @@ private:
 
     bool takes_turns_ = false; // some lights: their options bound what is drawn in a frame
     LightRows rows_;
-    std::vector<Known> known_; // by row
-    std::vector<View> views_;  // of the plan before
+    std::vector<LightBefore> before_; // by row
+    std::vector<View> views_;         // of the plan before
     std::vector<std::uint32_t> casters_;
     std::uint64_t objects_ = 0;   // ObjectSet::identity()
     std::vector<Turn> lights_;    // of the frame

@@ -8,28 +8,29 @@
 
 namespace gnomon {
 
-bool Schedule::hasOwnTurn(const Stand& stand, const Slice& slice) const
+bool Schedule::hasOwnTurn(const LightPosition& position, const Slice& slice) const
 {
-    return takes_turns_ && lights_[stand.light].by_cascade && std::isfinite(slice.depth.begin_m);
+    return takes_turns_ && lights_[position.light].by_cascade && std::isfinite(slice.depth.begin_m);
 }
 
-WideTurn Schedule::wideTurn(const Sights& sights, const Places& places, const Stand& stand, const LightFrustum& frustum)
+WideTurn Schedule::wideTurn(const Sights& sights, const Places& places, const LightPosition& position,
+                            const LightFrustum& frustum)
 {
-    const Setup& setup = sights.setups()[stand.at.options];
+    const Setup& setup = sights.setups()[position.at.options];
     const Slice& slice = frustum.slice;
-    const MapId map = places.store().placeOf(frustum.tenant, stand.slot, frustum.number).map;
+    const MapId map = places.store().placeOf(frustum.tenant, position.slot, frustum.number).map;
     if (grounds_.size() <= map.index) {
         grounds_.resize(map.index + 1);
         next_grounds_.resize(map.index + 1);
     }
     const ViewGround& ground = grounds_[map.index];
-    const LightSpace space = lightSpaceOf(stand.at, slice.axis_ws, slice.half_angle_rad, setup.camera.scene_ws);
-    const bool stood = viewBefore(places.store(), stand.light, map) != nullptr && sameFrustum(ground.space, space);
+    const LightSpace space = lightSpaceOf(position.at, slice.axis_ws, slice.half_angle_rad, setup.camera.scene_ws);
+    const bool stood = viewBefore(places.store(), position.light, map) != nullptr && sameFrustum(ground.space, space);
     WideTurn turn;
     turn.outcome = seen_.gatherReceivers({stood ? ground.space : space, slice, setup.camera, *sights.frame().objects,
                                           frustum.receivers, setup.recipe.drawsReceivers()});
     if (turn.outcome.kind == OutcomeKind::ok) {
-        turn.seen = &lookWide(sights, stand.at.options);
+        turn.seen = &lookWide(sights, position.at.options);
         turn.outcome = turn.seen->camera.outcome;
         turn.ground = &next_grounds_[map.index];
         turn.may_wait = stood && ground.covers(seen_, setup.camera.pad_m);

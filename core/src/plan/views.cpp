@@ -55,7 +55,7 @@ void Views::fitLight(const Results& from, std::uint32_t index)
         planned.outcome = handOutIds(from, index);
     }
     if (planned.outcome.kind == OutcomeKind::ok) {
-        planned.outcome = fitStands(from, index);
+        planned.outcome = fitPositions(from, index);
     }
     planned.view_count = static_cast<std::uint32_t>(from.plan.views.size()) - planned.first_view;
 }
@@ -88,17 +88,18 @@ Outcome Views::prospect(const Results& from, std::uint32_t index)
 }
 
 /// A frustum without receivers or casters needs no map; the light has one when any frustum does.
-Outcome Views::fitStands(const Results& from, std::uint32_t index)
+Outcome Views::fitPositions(const Results& from, std::uint32_t index)
 {
     from.plan.lights[index].sample = from.sights.lights()[index].sample;
     std::optional<Outcome> best;
-    for (const Stand& stand : from.frustums.standsOf(index)) {
-        if (stand.frustum_count == 0 && !best) {
+    for (const LightPosition& position : from.frustums.positionsOf(index)) {
+        if (position.frustum_count == 0 && !best) {
             best = {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
         }
-        for (const LightFrustum& frustum : from.frustums.of(stand)) {
-            const Outcome outcome = from.schedule.hasOwnTurn(stand, frustum.slice) ? fitWide(from, stand, frustum)
-                                                                                   : fitFrustum(from, stand, frustum);
+        for (const LightFrustum& frustum : from.frustums.of(position)) {
+            const Outcome outcome = from.schedule.hasOwnTurn(position, frustum.slice)
+                                        ? fitWide(from, position, frustum)
+                                        : fitFrustum(from, position, frustum);
             if (!best || rank(outcome.kind) > rank(best->kind)) {
                 best = outcome;
             }
@@ -107,26 +108,26 @@ Outcome Views::fitStands(const Results& from, std::uint32_t index)
     return *best;
 }
 
-Outcome Views::fitFrustum(const Results& from, const Stand& stand, const LightFrustum& frustum)
+Outcome Views::fitFrustum(const Results& from, const LightPosition& position, const LightFrustum& frustum)
 {
-    const Setup& setup = from.setupOf(stand.light);
+    const Setup& setup = from.setupOf(position.light);
     const Recipe& recipe = setup.recipe;
     const bool on_gpu = frustum.gpu_cascades > 0; // whose views have a grid of their own
     const glm::dvec2 grid_move =
         recipe.converges() ? convergeSample(from.sights.converging()).grid_texels : glm::dvec2(0.0);
     const MapStore& store = from.places.store();
-    const MapPlace& place = store.placeOf(frustum.tenant, stand.slot, frustum.number);
+    const MapPlace& place = store.placeOf(frustum.tenant, position.slot, frustum.number);
     Slice slice = frustum.slice;
     if (frustum.wanted_side > 0) { // where room is scarce its map is smaller than it asked for
         slice.texel *= static_cast<double>(frustum.wanted_side) / store.sideOf(frustum.tenant);
     }
     View fitted;
-    fitted.light = stand.light;
-    fitted.serves.sun = stand.sun;
+    fitted.light = position.light;
+    fitted.serves.sun = position.sun;
     fitted.projection.grid_move_texels = on_gpu ? grid_move : glm::dvec2(0.0);
     const Outcome outcome =
         planner_.plan({from.sights.frame(), recipe, setup.camera, frustum.receivers,
-                       recipe.steady() ? from.sights.allReceivers() : frustum.receivers, stand.at, slice,
+                       recipe.steady() ? from.sights.allReceivers() : frustum.receivers, position.at, slice,
                        place.tile.width, frustum.strength, on_gpu ? glm::dvec2(0.0) : grid_move, from.sights.scene_ws(),
                        setup.layers, recipe.warps() ? &setup.sight : nullptr},
                       fitted, from.plan.casters);
@@ -134,24 +135,24 @@ Outcome Views::fitFrustum(const Results& from, const Stand& stand, const LightFr
         return outcome;
     }
     if (!on_gpu) {
-        addView(from, stand, place, fitted);
+        addView(from, position, place, fitted);
         return outcome;
     }
     // A base map: one view for each cascade that the GPU will fit to a part of it.
     for (fitted.projection.gpu_cascade = 0; fitted.projection.gpu_cascade < frustum.gpu_cascades;
          ++fitted.projection.gpu_cascade) {
-        addView(from, stand, store.placeOf(frustum.tenant, stand.slot, fitted.projection.gpu_cascade), fitted);
+        addView(from, position, store.placeOf(frustum.tenant, position.slot, fitted.projection.gpu_cascade), fitted);
     }
     return outcome;
 }
 
 /// With room around what is seen, so that the map may wait while the camera moves.
-Outcome Views::fitWide(const Results& from, const Stand& stand, const LightFrustum& frustum)
+Outcome Views::fitWide(const Results& from, const LightPosition& position, const LightFrustum& frustum)
 {
-    const Setup& setup = from.setupOf(stand.light);
+    const Setup& setup = from.setupOf(position.light);
     const Recipe& recipe = setup.recipe;
-    const MapPlace& place = from.places.store().placeOf(frustum.tenant, stand.slot, frustum.number);
-    const WideTurn turn = from.schedule.wideTurn(from.sights, from.places, stand, frustum);
+    const MapPlace& place = from.places.store().placeOf(frustum.tenant, position.slot, frustum.number);
+    const WideTurn turn = from.schedule.wideTurn(from.sights, from.places, position, frustum);
     if (turn.outcome.kind != OutcomeKind::ok) {
         return turn.outcome;
     }
@@ -159,13 +160,13 @@ Outcome Views::fitWide(const Results& from, const Stand& stand, const LightFrust
         recipe.steady() ? from.sights.allReceivers() : std::span<const std::uint32_t>(turn.seen->receivers);
     const Slice wide = widened(frustum.slice, setup.camera, recipe.options.cascades.room);
     View fitted;
-    fitted.light = stand.light;
+    fitted.light = position.light;
     const Outcome outcome = planner_.plan({.frame = turn.seen->frame,
                                            .recipe = recipe,
                                            .camera = turn.seen->camera,
                                            .receivers = turn.seen->receivers,
                                            .levellers = levellers,
-                                           .light = stand.at,
+                                           .light = position.at,
                                            .slice = wide,
                                            .map_size = place.tile.width,
                                            .strength = frustum.strength,
@@ -178,21 +179,21 @@ Outcome Views::fitWide(const Results& from, const Stand& stand, const LightFrust
         return outcome;
     }
     fitted.serves.slice = frustum.slice.depth; // pixels choose by what is seen
-    addView(from, stand, place, fitted);
+    addView(from, position, place, fitted);
     maps_.back().own_turn = true;
     maps_.back().may_wait = turn.may_wait;
     return outcome;
 }
 
 /// Says where a view's map is. Schedule says later what of it has to be drawn.
-void Views::addView(const Results& from, const Stand& stand, const MapPlace& place, const View& fitted)
+void Views::addView(const Results& from, const LightPosition& position, const MapPlace& place, const View& fitted)
 {
     View& view = from.plan.views.emplace_back(fitted);
     view.place.map = place.map;
     view.place.tile = place.tile;
     view.place.part = place.part;
     view.contents.ids_key = idsKey(from.plan, view);
-    maps_.push_back({&place, stand.read});
+    maps_.push_back({&place, position.read});
 }
 
 } // namespace gnomon

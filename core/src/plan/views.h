@@ -39,10 +39,10 @@ private:
     };
     void fitLight(const Results& from, std::uint32_t index);
     [[nodiscard]] static Outcome prospect(const Results& from, std::uint32_t index);
-    Outcome fitStands(const Results& from, std::uint32_t index);
-    Outcome fitFrustum(const Results& from, const Stand& stand, const LightFrustum& frustum);
-    Outcome fitWide(const Results& from, const Stand& stand, const LightFrustum& frustum);
-    void addView(const Results& from, const Stand& stand, const MapPlace& place, const View& fitted);
+    Outcome fitPositions(const Results& from, std::uint32_t index);
+    Outcome fitFrustum(const Results& from, const LightPosition& position, const LightFrustum& frustum);
+    Outcome fitWide(const Results& from, const LightPosition& position, const LightFrustum& frustum);
+    void addView(const Results& from, const LightPosition& position, const MapPlace& place, const View& fitted);
     // views_of_ids.cpp
     Outcome handOutIds(const Results& from, std::uint32_t index);
     [[nodiscard]] std::uint64_t idsKey(const Plan& plan, const View& view) const;
