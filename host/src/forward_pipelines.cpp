@@ -2,8 +2,6 @@
 // Pipelines of surfaces that are shaded as they are drawn.
 #include "pipeline_wish.h"
 
-#include <gnomon/pack/filter_rule.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -13,29 +11,8 @@ namespace gnomon::host {
 
 std::string forwardFragment(const ResolvedOptions& options)
 {
-    if (options.hasSmoothies()) {
-        return "forward_smoothies.frag";
-    }
-    switch (pack::readingFilter(options)) {
-    case Filter::hard:
-        return "forward_hard.frag";
-    case Filter::pcss:
-        return "forward_pcss.frag";
-    case Filter::raymarch:
-        return "forward_raymarch.frag";
-    case Filter::vsm:
-    case Filter::msm:
-        return "forward_moments.frag";
-    case Filter::lvsm:
-    case Filter::esm:
-    case Filter::evsm:
-        return "forward_warped.frag";
-    case Filter::id:
-    case Filter::depth_id:
-        return "forward_ids.frag";
-    default:
-        return "forward_pcf.frag";
-    }
+    const std::string_view module = options.hasSmoothies() ? "smoothies" : nameOf(pack::filterModule(options));
+    return "forward_" + std::string(module) + ".frag";
 }
 
 SurfacePipelines Pipelines::shadowedFor(const ResolvedOptions& options)

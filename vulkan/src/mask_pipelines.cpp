@@ -20,38 +20,18 @@ struct MaskCode {
     std::span<const std::uint32_t> alone;
 };
 
-MaskCode fragmentCode(Filter filter)
+MaskCode codeOf(pack::FilterModule module)
 {
     using namespace spirv;
-    switch (filter) {
-    case Filter::hard:
-        return {mask_hard_frag, mask_hard_one_frag};
-    case Filter::pcss:
-        return {mask_pcss_frag, mask_pcss_one_frag};
-    case Filter::raymarch:
-        return {mask_raymarch_frag, mask_raymarch_one_frag};
-    case Filter::vsm:
-    case Filter::msm:
-        return {mask_moments_frag, mask_moments_one_frag};
-    case Filter::lvsm:
-    case Filter::esm:
-    case Filter::evsm:
-        return {mask_warped_frag, mask_warped_one_frag};
-    case Filter::id:
-    case Filter::depth_id:
-        return {mask_ids_frag, {}};
-    case Filter::pcf:
-    case Filter::volumes:   // counts no texels: what it has of a map is never read
-    case Filter::smoothies: // pcf, and its edges beside it
-    case Filter::automatic: // never comes here: a plan has the one that was chosen
-        break;
-    }
-    return {mask_pcf_frag, mask_pcf_one_frag};
-}
-
-Filter filterOf(const MaskPipelineKey& key)
-{
-    return static_cast<Filter>(key.constants.technique.filter);
+    const std::array<MaskCode, static_cast<std::size_t>(pack::FilterModule::count)> codes{
+        {{mask_hard_frag, mask_hard_one_frag},
+         {mask_pcf_frag, mask_pcf_one_frag},
+         {mask_pcss_frag, mask_pcss_one_frag},
+         {mask_raymarch_frag, mask_raymarch_one_frag},
+         {mask_moments_frag, mask_moments_one_frag},
+         {mask_warped_frag, mask_warped_one_frag},
+         {mask_ids_frag, {}}}};
+    return codes[static_cast<std::size_t>(module)];
 }
 
 } // namespace
@@ -59,6 +39,7 @@ Filter filterOf(const MaskPipelineKey& key)
 MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape)
 {
     MaskPipelineKey key;
+    key.module = pack::filterModule(options);
     key.constants.technique = pack::techniqueConstants(options);
     key.constants.has_normals = shape.normals ? VK_TRUE : VK_FALSE;
     key.constants.has_smooth = shape.smooth ? VK_TRUE : VK_FALSE;
@@ -92,10 +73,9 @@ MaskPipelines::MaskPipelines(Device& device, const ShadowRendererOptions& option
 VkPipeline MaskPipelines::get(MaskPipelineKey key, VkPipelineLayout layout)
 {
     if (key.told_apart == pack::ToldApart::alone) { // one module for both kinds of view, where there is one
-        const Filter filter = filterOf(key);
-        const bool pairs = filter == Filter::hard || filter == Filter::pcf; // mask.frag
+        const bool pairs = key.module == pack::FilterModule::hard || key.module == pack::FilterModule::pcf; // mask.frag
         const bool has_module =
-            vertex_one_ && !fragmentCode(filter).alone.empty() && (pairs || key.constants.paired == VK_FALSE);
+            vertex_one_ && !codeOf(key.module).alone.empty() && (pairs || key.constants.paired == VK_FALSE);
         key.told_apart = has_module ? pack::ToldApart::alone : pack::ToldApart::tests;
         key.constants.orthographic = has_module ? VK_FALSE : key.constants.orthographic;
         key.constants.paired = has_module ? key.constants.paired : VK_FALSE;
@@ -115,7 +95,7 @@ Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout
     constants.slices_alone = key.told_apart == pack::ToldApart::slices ? VK_TRUE : VK_FALSE;
     const Specialisation specialisation(constants);
     const bool alone = key.told_apart == pack::ToldApart::alone;
-    const MaskCode code = fragmentCode(filterOf(key));
+    const MaskCode code = codeOf(key.module);
     const ShaderModule fragment = makeShader(device_, alone ? code.alone : code.any);
     const TwoStages stages = stagesOf(alone ? vertex_one_ : vertex_, fragment, specialisation.info());
     GraphicsState state;

@@ -42,6 +42,7 @@ enum class DrawnAs : std::uint8_t {
 };
 
 struct MaskPipelineKey {
+    pack::FilterModule module = pack::FilterModule::pcf;
     MaskConstants constants;
     VkFormat format = VK_FORMAT_UNDEFINED; // of the mask
     pack::ToldApart told_apart = pack::ToldApart::tests;

@@ -7,8 +7,16 @@
 #include <gnomon/plan.h>
 
 #include <cstdint>
+#include <string_view>
 
 namespace gnomon::pack {
+
+/// Which shader module has a filter. Those that are alike share one, and TechniqueConstants::filter chooses there.
+enum class FilterModule : std::uint8_t { hard, pcf, pcss, raymarch, moments, warped, ids, count };
+/// As shaders/CMakeLists.txt names its modules, and GNOMON_FILTER_MODULES those of hosts; static text.
+[[nodiscard]] GNOMON_API std::string_view nameOf(FilterModule module);
+/// Of the filter that reads maps of these options (readingFilter()).
+[[nodiscard]] GNOMON_API FilterModule filterModule(const ResolvedOptions& options);
 
 /// The constants of gnomon/technique_constants.glsl: four bytes each, in their order.
 struct TechniqueConstants {

@@ -6,28 +6,28 @@
 #include "../shared/choice_numbers.h"
 #include "compiled_filters.glsl"
 #include "filter_types.glsl"
-#if GNOMON_COMPILES(HARD)
+#if GNOMON_COMPILES(GNOMON_FILTER_HARD)
 #include "hard.glsl"
 #endif
-#if GNOMON_COMPILES(PCF)
+#if GNOMON_COMPILES(GNOMON_FILTER_PCF)
 #include "pcf.glsl"
 #endif
-#if GNOMON_COMPILES(PCSS)
+#if GNOMON_COMPILES(GNOMON_FILTER_PCSS)
 #include "pcss.glsl"
 #endif
-#if GNOMON_COMPILES(RAYMARCH)
+#if GNOMON_COMPILES(GNOMON_FILTER_RAYMARCH)
 #include "raymarch.glsl"
 #endif
-#if GNOMON_COMPILES(VSM) || GNOMON_COMPILES(MSM)
+#if GNOMON_COMPILES(GNOMON_FILTER_VSM) || GNOMON_COMPILES(GNOMON_FILTER_MSM)
 #include "moment_penumbra.glsl"
 #endif
-#if GNOMON_COMPILES(LVSM)
+#if GNOMON_COMPILES(GNOMON_FILTER_LVSM)
 #include "lvsm.glsl"
 #endif
-#if GNOMON_COMPILES(ESM)
+#if GNOMON_COMPILES(GNOMON_FILTER_ESM)
 #include "esm.glsl"
 #endif
-#if GNOMON_COMPILES(EVSM)
+#if GNOMON_COMPILES(GNOMON_FILTER_EVSM)
 #include "evsm.glsl"
 #endif
 #if defined(GNOMON_SMOOTHIES) && GNOMON_COMPILES_KERNELS
@@ -57,45 +57,45 @@ GN_FN real withSmoothies(real visibility, MapPoint point, FilterInput f)
 GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
 {
     switch (filter_number) {
-#if GNOMON_COMPILES(HARD)
+#if GNOMON_COMPILES(GNOMON_FILTER_HARD)
     case GNOMON_FILTER_HARD:
         return withSmoothies(filterHard(point, f), point, f);
 #endif
-#if GNOMON_COMPILES(PCF)
+#if GNOMON_COMPILES(GNOMON_FILTER_PCF)
     case GNOMON_FILTER_PCF:
         return withSmoothies(filterPcf(point, f), point, f);
 #endif
-#if GNOMON_COMPILES(PCSS)
+#if GNOMON_COMPILES(GNOMON_FILTER_PCSS)
     case GNOMON_FILTER_PCSS:
         return filterPcss(point, f);
 #endif
-#if GNOMON_COMPILES(RAYMARCH)
+#if GNOMON_COMPILES(GNOMON_FILTER_RAYMARCH)
     case GNOMON_FILTER_RAYMARCH:
         return filterRaymarch(point, f);
 #endif
-#if GNOMON_COMPILES(VSM) || GNOMON_COMPILES(MSM)
+#if GNOMON_COMPILES(GNOMON_FILTER_VSM) || GNOMON_COMPILES(GNOMON_FILTER_MSM)
     case GNOMON_FILTER_VSM:
     case GNOMON_FILTER_MSM:
         return applyMoments(filter_number, point, f);
 #endif
-#if GNOMON_COMPILES(LVSM)
+#if GNOMON_COMPILES(GNOMON_FILTER_LVSM)
     case GNOMON_FILTER_LVSM:
         return filterLvsm(point, f);
 #endif
-#if GNOMON_COMPILES(ESM)
+#if GNOMON_COMPILES(GNOMON_FILTER_ESM)
     case GNOMON_FILTER_ESM:
         return filterEsm(point, f);
 #endif
-#if GNOMON_COMPILES(EVSM)
+#if GNOMON_COMPILES(GNOMON_FILTER_EVSM)
     case GNOMON_FILTER_EVSM:
         return filterEvsm(point, f);
 #endif
 #ifdef GNOMON_WITH_IDS
-#if GNOMON_COMPILES(ID)
+#if GNOMON_COMPILES(GNOMON_FILTER_ID)
     case GNOMON_FILTER_ID:
         return filterId(point, f);
 #endif
-#if GNOMON_COMPILES(DEPTH_ID)
+#if GNOMON_COMPILES(GNOMON_FILTER_DEPTH_ID)
     case GNOMON_FILTER_DEPTH_ID:
         return filterDepthId(point, f);
 #endif
