@@ -20,15 +20,22 @@ struct Constant {
 };
 
 constexpr Constant kMaskConstants[] = {
-    {"kernel", 3},  {"taps", 16},  {"automatic bias", 1}, {"flags", 0},    {"sampling", 0},   {"layers", 0},
-    {"holding", 0}, {"views", 0},  {"normals", 1},        {"software", 0}, {"smooth", 0},     {"tints", 0},
-    {"rays", 0},    {"frames", 0}, {"coloured", 0},       {"tiles", 0},    {"takes away", 0}, {"paraboloid", 0},
-    {"ids", 0},     {"slices", 0}, {"paired", 0},         {"pixels", 1}}; // mask.frag, in its order
+    {"kernel", 3},      {"taps", 16}, {"automatic bias", 1}, {"flags", 0},    {"sampling", 0}, {"layers", 0},
+    {"holding", 0},     {"views", 0}, {"filter", 0},         {"normals", 1},  {"software", 0}, {"smooth", 0},
+    {"tints", 0},       {"rays", 0},  {"frames", 0},         {"coloured", 0}, {"tiles", 0},    {"takes away", 0},
+    {"paraboloid", 0},  {"ids", 0},   {"slices", 0},         {"paired", 0},   {"pixels", 1},   {"layered", 0},
+    {"orthographic", 0}}; // mask.frag, in its order
+constexpr Constant kCasterConstants[] = {{"holding", 0},     {"quantum", 0},  {"coloured", 0}, {"masked", 0},
+                                         {"perspective", 0}, {"metric", 0},   {"ids", 0},      {"paraboloid", 0},
+                                         {"placed", 0},      {"own depth", 0}}; // CasterConstants
 
 std::span<const Constant> constantsOf(std::string_view module)
 {
     const bool is_mask = module.starts_with("mask_") && module.ends_with(".frag") && module != "mask_spread.frag";
-    return is_mask ? std::span<const Constant>(kMaskConstants) : std::span<const Constant>();
+    const bool is_caster = module.starts_with("caster");
+    return is_mask     ? std::span<const Constant>(kMaskConstants)
+           : is_caster ? std::span<const Constant>(kCasterConstants)
+                       : std::span<const Constant>();
 }
 
 /// A constant is a small whole number or a float.
