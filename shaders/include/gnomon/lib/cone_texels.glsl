@@ -23,7 +23,7 @@ GN_FN real4 coneTexels(RayCone c, real s)
         real a = (i & 1) == 0 ? s : -s;
         real b = (i & 2) == 0 ? s : -s;
         real3 h = c.start + c.axis * s + c.side_x * a + c.side_y * b;
-        real w = GNOMON_ORTHOGRAPHIC_ONLY ? real(1.0) : max(h.z, real(0.5) * kRayEnd * c.start.z);
+        real w = mix(max(h.z, real(0.5) * kRayEnd * c.start.z), real(1.0), GNOMON_ORTHOGRAPHIC_ONLY);
         real2 q = real2(h.x, h.y) / w;
         box = real4(min(box.x, q.x), min(box.y, q.y), max(box.z, q.x), max(box.w, q.y));
     }

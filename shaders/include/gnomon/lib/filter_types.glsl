@@ -98,10 +98,7 @@ GN_FN real4 compareGather(MapPoint point, real2 centre, real4 stored)
 {
     real2 d = point.depth_slope;
     real4 depth = real4(point.depth + dot(d, centre)) + real4(d.y, d.x + d.y, d.x, real(0.0));
-    if (GNOMON_ORTHOGRAPHIC_ONLY) {
-        return step(min(depth, real4(point.cap)), stored);
-    }
-    real2 s = point.w_slope;
+    real2 s = point.w_slope * mix(real(1.0), real(0.0), GNOMON_ORTHOGRAPHIC_ONLY);
     real4 w = real4(real(1.0) + dot(s, centre)) + real4(s.y, s.x + s.y, s.x, real(0.0));
     w = max(w, real4(real(0.05)));
     return step(min(depth, w * point.cap), stored * w);

@@ -56,53 +56,65 @@ GN_FN real withSmoothies(real visibility, MapPoint point, FilterInput f)
 // `filter_number`: one of those that are compiled. What is none of them is lit.
 GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
 {
+    real v = real(1.0);
     switch (filter_number) {
 #if GNOMON_COMPILES(GNOMON_FILTER_HARD)
     case GNOMON_FILTER_HARD:
-        return withSmoothies(filterHard(point, f), point, f);
+        v = withSmoothies(filterHard(point, f), point, f);
+        break;
 #endif
 #if GNOMON_COMPILES(GNOMON_FILTER_PCF)
     case GNOMON_FILTER_PCF:
-        return withSmoothies(filterPcf(point, f), point, f);
+        v = withSmoothies(filterPcf(point, f), point, f);
+        break;
 #endif
 #if GNOMON_COMPILES(GNOMON_FILTER_PCSS)
     case GNOMON_FILTER_PCSS:
-        return filterPcss(point, f);
+        v = filterPcss(point, f);
+        break;
 #endif
 #if GNOMON_COMPILES(GNOMON_FILTER_RAYMARCH)
     case GNOMON_FILTER_RAYMARCH:
-        return filterRaymarch(point, f);
+        v = filterRaymarch(point, f);
+        break;
 #endif
 #if GNOMON_COMPILES(GNOMON_FILTER_VSM) || GNOMON_COMPILES(GNOMON_FILTER_MSM)
     case GNOMON_FILTER_VSM:
     case GNOMON_FILTER_MSM:
-        return applyMoments(filter_number, point, f);
+        v = applyMoments(filter_number, point, f);
+        break;
 #endif
 #if GNOMON_COMPILES(GNOMON_FILTER_LVSM)
     case GNOMON_FILTER_LVSM:
-        return filterLvsm(point, f);
+        v = filterLvsm(point, f);
+        break;
 #endif
 #if GNOMON_COMPILES(GNOMON_FILTER_ESM)
     case GNOMON_FILTER_ESM:
-        return filterEsm(point, f);
+        v = filterEsm(point, f);
+        break;
 #endif
 #if GNOMON_COMPILES(GNOMON_FILTER_EVSM)
     case GNOMON_FILTER_EVSM:
-        return filterEvsm(point, f);
+        v = filterEvsm(point, f);
+        break;
 #endif
 #ifdef GNOMON_WITH_IDS
 #if GNOMON_COMPILES(GNOMON_FILTER_ID)
     case GNOMON_FILTER_ID:
-        return filterId(point, f);
+        v = filterId(point, f);
+        break;
 #endif
 #if GNOMON_COMPILES(GNOMON_FILTER_DEPTH_ID)
     case GNOMON_FILTER_DEPTH_ID:
-        return filterDepthId(point, f);
+        v = filterDepthId(point, f);
+        break;
 #endif
 #endif
     default:
-        return real(1.0);
+        break;
     }
+    return v;
 }
 
 GN_END

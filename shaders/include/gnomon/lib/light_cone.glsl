@@ -24,7 +24,7 @@ struct RayCone {
 
 GN_FN real3 mapGradient(MapRows rows, real3 d)
 {
-    real w = GNOMON_ORTHOGRAPHIC_ONLY ? real(0.0) : dot(gradientOf(rows.w), d);
+    real w = mix(dot(gradientOf(rows.w), d), real(0.0), GNOMON_ORTHOGRAPHIC_ONLY);
     return real3(dot(gradientOf(rows.x), d), dot(gradientOf(rows.y), d), w);
 }
 
@@ -63,7 +63,7 @@ GN_CONST real kDiscEnd = real(0.05);
 GN_FN real rayLength(real fall, real rise, real w, real w_way, real end)
 {
     real s = max(fall, real(0.0)) / max(rise, real(1e-30));
-    return GNOMON_ORTHOGRAPHIC_ONLY ? s : min(s, (real(1.0) - end) * w / max(-w_way, real(1e-30)));
+    return mix(min(s, (real(1.0) - end) * w / max(-w_way, real(1e-30))), s, GNOMON_ORTHOGRAPHIC_ONLY);
 }
 
 // Rays go on a little beyond the nearest surface, so that rounding does not end them before it.

@@ -44,10 +44,13 @@ GN_FN MapPoint pointOnPlane(MapPoint point, FilterInput f, real level, real2 pla
 GN_FN Occluders tapOccluders(int filter_number, MapPoint q, FilterInput f, real level)
 {
     real4 stored = sampleMoments(q, f, f.layer, level);
+    Occluders o;
     if (filter_number == kFilterMsm) {
-        return msmOccluders(q, f, level, stored);
+        o = msmOccluders(q, f, level, stored);
+    } else {
+        o = vsmOccluders(q, f, stored);
     }
-    return vsmOccluders(q, f, stored);
+    return o;
 }
 
 // Half the width on the map of the cone's cross-section at `s`, texels.

@@ -232,10 +232,7 @@ GN_FN RayEnd followRay(MapPoint point, FilterInput f, LightRay ray)
         RayStep step = leaveSquare(r, cell, exp2(level));
         real t = min(step.t, real(1.0));
         // A share of the ray's own length: lines stay straight in a perspective map, but not their measure.
-        real s = t;
-        if (!GNOMON_ORTHOGRAPHIC_ONLY) {
-            s = t * ray.from_w / (t * ray.from_w + (real(1.0) - t) * ray.to_w);
-        }
+        real s = mix(t * ray.from_w / (t * ray.from_w + (real(1.0) - t) * ray.to_w), t, GNOMON_ORTHOGRAPHIC_ONLY);
         real leaves = ray.from + (ray.to - ray.from) * s;
         blocked = level == real(0.0) && texelBlocks(before, here, enters, leaves, kOneSurface * point.texel_depth);
         before = here;

@@ -125,7 +125,7 @@ GN_FN bool viewContains(GpuView view, real3 p)
     if (GNOMON_PARABOLOID && view.plane_y.w > 0.0) {
         return is_served; // its half space is the disc, around which there is room for taps
     }
-    real w = GNOMON_ORTHOGRAPHIC_ONLY ? real(1.0) : dotRow(real4(view.w), p);
+    real w = mix(dotRow(real4(view.w), p), real(1.0), GNOMON_ORTHOGRAPHIC_ONLY);
     real x = dotRow(real4(view.x), p);
     real y = dotRow(real4(view.y), p);
     real4 tile = real4(view.tile) * w;

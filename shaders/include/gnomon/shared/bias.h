@@ -6,7 +6,9 @@
 #ifndef GNOMON_BIAS_H
 #define GNOMON_BIAS_H
 #include "portability.h"
-// Whether all maps are orthographic, a constant: then w is 1 everywhere. The includer may know.
+// Whether all maps are orthographic, a constant: then w is 1 everywhere. The includer may know. Both cases are worked out
+// and one is taken by mix(), without a branch: compilers that fold the constant drop the other one, and SwiftShader, which
+// does not, takes minutes and gigabytes for the branches.
 #ifndef GNOMON_ORTHOGRAPHIC_ONLY
 #define GNOMON_ORTHOGRAPHIC_ONLY false
 #endif
@@ -93,7 +95,7 @@ GN_FN real3 gradientOf(real4 row)
 
 GN_FN real mapW(MapRows map, real3 p)
 {
-    return GNOMON_ORTHOGRAPHIC_ONLY ? real(1.0) : dotRow(map.w, p);
+    return mix(dotRow(map.w, p), real(1.0), GNOMON_ORTHOGRAPHIC_ONLY);
 }
 
 GN_FN real2 texelAt(MapRows map, real3 p, real w)
@@ -116,28 +118,22 @@ GN_FN real2 texelAt(MapRows map, real3 p, real w)
 GN_FN void receiverPlane(MapRows map, real3 n, real2 texel, real w, real m, GN_OUT(real2) depth_slope,
                          GN_OUT(real2) w_slope, GN_OUT(real) rise)
 {
-    if (GNOMON_ORTHOGRAPHIC_ONLY) {
-        real det = dot(n, gradientOf(map.plane_w));
-        real tiny = map.plane_w.w;
-        real inverse = real(1.0) / (abs(det) > tiny ? det : (det < real(0.0) ? -tiny : tiny));
-        w_slope = real2(0.0);
-        depth_slope = real2(dot(n, gradientOf(map.plane_x)), dot(n, gradientOf(map.plane_y))) * inverse;
-        rise = dot(gradientOf(map.metric), gradientOf(map.plane_w)) * inverse;
-        return;
-    }
     real3 gw = gradientOf(map.w);
     real3 gx = gradientOf(map.x) - gw * texel.x;
     real3 gy = gradientOf(map.y) - gw * texel.y;
     real3 a = cross(gy, n);
     real3 b = cross(n, gx);
-    real det = dot(gx, a);
+    real3 gm = gradientOf(map.metric);
+    const bool ortho = GNOMON_ORTHOGRAPHIC_ONLY;
+    real det = mix(dot(gx, a), dot(n, gradientOf(map.plane_w)), ortho);
     // Edge-on, the slope is without bound; keep it finite and let the steepness limit deal with it.
-    real tiny = real(1e-6) * length(gx) * length(gy);
+    real tiny = mix(real(1e-6) * length(gx) * length(gy), map.plane_w.w, ortho);
     real inverse = real(1.0) / (abs(det) > tiny ? det : (det < real(0.0) ? -tiny : tiny));
-    w_slope = real2(dot(gw, a), dot(gw, b)) * -inverse;
-    real3 gm = gradientOf(map.metric) * w;
-    depth_slope = w_slope * m + real2(dot(gm, a), dot(gm, b)) * inverse;
-    rise = dot(gradientOf(map.metric), cross(gx, gy)) * inverse;
+    w_slope = real2(dot(gw, a), dot(gw, b)) * mix(-inverse, real(0.0), ortho);
+    real along_u = mix(dot(gm * w, a), dot(n, gradientOf(map.plane_x)), ortho);
+    real along_v = mix(dot(gm * w, b), dot(n, gradientOf(map.plane_y)), ortho);
+    depth_slope = w_slope * m + real2(along_u, along_v) * inverse;
+    rise = mix(dot(gm, cross(gx, gy)), dot(gm, gradientOf(map.plane_w)), ortho) * inverse;
 }
 
 // A texel's longest extent across the light where the map has the given w, metres. A texel is a ray of light, so the
@@ -145,9 +141,6 @@ GN_FN void receiverPlane(MapRows map, real3 n, real2 texel, real w, real m, GN_O
 // at most one over their least singular value: the greatest over their determinant.
 GN_FN real texelExtent(MapRows map, real2 texel, real w)
 {
-    if (GNOMON_ORTHOGRAPHIC_ONLY) {
-        return map.texel_m;
-    }
     real3 gx = gradientOf(map.x) - gradientOf(map.w) * texel.x;
     real3 gy = gradientOf(map.y) - gradientOf(map.w) * texel.y;
     real xx = dot(gx, gx);
@@ -155,7 +148,7 @@ GN_FN real texelExtent(MapRows map, real2 texel, real w)
     real xy = dot(gx, gy);
     real half_difference = real(0.5) * (xx - yy);
     real greatest = real(0.5) * (xx + yy) + sqrt(half_difference * half_difference + xy * xy);
-    return w * sqrt(greatest) / length(cross(gx, gy));
+    return mix(w * sqrt(greatest) / length(cross(gx, gy)), map.texel_m, GNOMON_ORTHOGRAPHIC_ONLY);
 }
 
 // `p` in the space of the rows, `n` its unit geometric normal, which faces the light.
