@@ -35,7 +35,7 @@ constexpr double kLeastFov_deg = 0.1;   // as --fov
 constexpr double kLargestFov_deg = 179.0;
 constexpr double kShortest = 1e-12; // a direction's length must be told from rounding noise
 
-/// Of a text from the file: on one line, and short.
+/// A text from the file made short and printable on one line.
 std::string shown(std::string text)
 {
     constexpr std::size_t kLongest = 200;

@@ -28,7 +28,7 @@ Json numbers(const Vector& v)
     return Json::array({v.x, v.y, v.z});
 }
 
-/// What the light is, beside what the plan says of it.
+/// Adds the light's own properties, which the plan does not have.
 void describeLight(const host::ShadedLight& light, Json& json)
 {
     const Light& caster = light.caster;
@@ -99,11 +99,11 @@ public:
             }
         }
     }
-    /// The last ones.
+    /// The frame, the plan and the objects of the last frame.
     [[nodiscard]] const Frame& frame() const { return frame_; }
     [[nodiscard]] const Plan& plan() const { return *plan_; }
     [[nodiscard]] const ObjectSet& objects() const { return objects_; }
-    /// Of all but the first.
+    /// The waits of all frames after the first.
     [[nodiscard]] const lab::Waits& waits() const { return waits_; }
 
 private:

@@ -51,7 +51,8 @@ void writePicture(const fs::path& file, host::FrameRenderer& renderer, const Set
     }
 }
 
-/// What became of the lights, when it is not what one hoped for. Refused ones were named before.
+/// Notes lights that have smaller maps than they ask for, or whose outcome is a fallback or worse. Refused lights were
+/// named before.
 void noteOutcomes(const Shot& shot, const Plan& plan)
 {
     if (const auto smaller = std::ranges::count_if(plan.lights, [](const LightPlan& l) { return l.halved > 0; })) {

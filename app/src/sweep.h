@@ -15,7 +15,7 @@
 
 namespace gnomon::app {
 
-/// What a sweep draws, worked out and checked before anything is drawn.
+/// The plan of a sweep, made and checked before anything is drawn.
 struct SweepPlan {
     struct Line {
         std::string technique;        // without the setting that is swept
@@ -55,7 +55,7 @@ struct SweepResult {
     std::vector<std::vector<Point>> points; // by line and value
     std::vector<Place> places;              // by value; the first one alone where the shot is not made anew
 };
-/// What holds at a value, by its index. Asked for in order, each once; must hold until the next is asked for.
+/// The light and truth at a value, by its index. Called once for each in order; a result must hold until the next call.
 using JudgedAt = std::function<const Judged&(std::size_t value)>;
 /// `step` is called after every technique drawn and may throw to stop.
 [[nodiscard]] SweepResult runSweep(const host::SceneOnGpu& scene, SweepPlan plan, const JudgedAt& judged_at,

@@ -50,7 +50,7 @@ double meets(const Triangle& triangle, const glm::dvec3& from, const glm::dvec3&
     return inside ? glm::dot(b, q) / determinant : kInfinity;
 }
 
-/// An object, or all of a node: what takes light together.
+/// An object, or all objects of a node, which may together take all of a light.
 struct Taker {
     std::vector<std::uint32_t> objects; // ascending
     Aabb bounds_ws;
@@ -69,7 +69,7 @@ public:
         listTakers();
     }
 
-    /// What takes all of a light; null where nothing does.
+    /// The taker of all of a light; null where there is none.
     [[nodiscard]] const Taker* takerOf(const Light& light)
     {
         for (const Taker& taker : takers_) {

@@ -40,7 +40,7 @@ struct Stage {
 [[nodiscard]] double frameMedian(const std::vector<host::FrameTimes>& samples);
 [[nodiscard]] std::uint64_t totalBytes(const MemoryByPurpose& memory);
 
-/// What the device did not measure of these frames, as sentences; empty when it measured all.
+/// Sentences about measurements that the device lacks for these frames; empty when it measured all.
 [[nodiscard]] std::vector<std::string> notMeasured(const std::vector<host::FrameTimes>& samples);
 
 /// PREFIXtime_ms and PREFIXiqr_ms: {"plan", "maps", "filter", "mask", "frame"}; null is what is not measured, and the
@@ -69,7 +69,7 @@ struct PassCount {
 /// Bytes that the blur moved by the least that it needs; 0 where nothing is blurred.
 [[nodiscard]] double filterRatio(const vulkan::FilterCost& filter);
 [[nodiscard]] Json countersJson(const lab::Counters& counters);
-/// What frames drew of their maps, and what they did not have to: vulkan::MapReuse, a row each, means per frame.
+/// How many maps and objects frames drew, kept or culled: a row for each member of vulkan::MapReuse, means per frame.
 struct ReuseCounter {
     std::string_view name; // in JSON
     std::string_view title;

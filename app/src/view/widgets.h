@@ -18,7 +18,7 @@ public:
     /// Before the first widget of a turn.
     void begin();
 
-    /// A row for a setting: as what it is, with unit, range and what it does where the pointer rests.
+    /// A row for a setting, by its type, with unit, range and meaning where the pointer rests.
     void setting(Viewer& viewer, const Setting& setting);
     /// A setting that takes one of several names, with why one cannot be had and where it comes from.
     void choice(Viewer& viewer, const Setting& setting);
@@ -50,7 +50,7 @@ private:
 
     std::map<std::string, glm::dvec2, std::less<>> places_;
     std::string revealed_;
-    // What is being typed or dragged, until it is given.
+    // The setting that is being typed or dragged, until its value is applied.
     std::string edited_key_;
     bool edited_was_there_ = false; // in this turn
     std::string edited_text_;
