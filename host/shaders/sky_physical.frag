@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A sky of air, of the sun and by night of the moon, from the tables of host/src/sky_table.h; their discs, and stars.
-// What is below the horizon is ground in haze. OVER_SURFACE: laid over a surface that fades into it.
+// Below the horizon is ground in haze. OVER_SURFACE: laid over a surface that fades into it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"

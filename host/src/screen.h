@@ -11,7 +11,7 @@
 
 namespace gnomon::host {
 
-/// What is drawn: the picture's size, or twice that on each side with supersampling.
+/// The size that is drawn: the picture's, or twice that on each side with supersampling.
 [[nodiscard]] VkExtent2D drawnExtent(const RenderOptions& options);
 
 /// Frames that the GPU has not finished share one, so it lives until the last of them is done.
@@ -28,7 +28,7 @@ public:
     /// The set 0 of a slot's frame, with this mask; the scene's cookies stand in for none. The GPU has finished the
     /// slot's last frame.
     [[nodiscard]] VkDescriptorSet frameSet(std::uint32_t slot, VkImageView mask) const;
-    /// Makes what a frame of deferred shading draws to. Throws Error.
+    /// Makes the images that a frame of deferred shading draws to. Throws Error.
     void needGBuffer(const GBufferFormats& formats, const GBufferShape& shape)
     {
         targets.needGBuffer(memory_, formats, shape);
