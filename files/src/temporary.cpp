@@ -76,7 +76,7 @@ bool removedAll(const fs::path& path, Temporary::Kind kind) noexcept
     }
 }
 
-/// Whether the name was left by a killed process and is now free. Who holds the lock alone may remove or rename.
+/// Whether the name was left by a killed process and is now free. Only the holder of the lock may remove or rename.
 bool removedStale(const fs::path& path, Temporary::Kind kind)
 {
     const int descriptor = openExisting(path, kind);

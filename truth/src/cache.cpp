@@ -40,7 +40,7 @@ bool isEntryName(std::string_view name)
            name.find_first_not_of("0123456789abcdef") == kKeyDigits;
 }
 
-/// What writeFile() calls an entry while it writes: ".ENTRY.N.tmp".
+/// Is it the name that writeFile() gives an entry while it writes: ".ENTRY.N.tmp"?
 bool isTemporaryName(std::string_view name)
 {
     constexpr std::size_t kEntryLength = kKeyDigits + kSuffix.size();
@@ -65,7 +65,7 @@ private:
     int number_;
 };
 
-/// What reading gave: `failed` is the disk's or the system's fault, and says nothing of the file.
+/// The result of reading. `failed` is the disk's or the system's fault, not the file's.
 enum class Read : std::uint8_t { whole, ended_early, failed };
 
 Read readExactly(int descriptor, char* to, std::size_t count)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves in the world `rts`: squads on their loops, a giant, debris in its swarms, sails and flags. All are pure
-// functions of the time.
+// The moving things of the world `rts`: squads on their loops, a giant, debris in its swarms, sails and flags. All are
+// pure functions of the time.
 #pragma once
 
 #include "loops.h"
