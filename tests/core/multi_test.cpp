@@ -412,7 +412,7 @@ TEST(Multi, ChangesLittleWhereLittleMoves)
     EXPECT_LT(changes, views / 20);
 }
 
-// What converges moves its lamp in each frame, and with it where directions are divided.
+// soften=converge moves its lamp in each frame, and with it the division of directions.
 TEST(Multi, HoldsWhatIsSeenFromEachPointOfALampThatConverges)
 {
     Hall hall;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is recorded, checked on a driver that only keeps count.
+// Recorded commands, checked on a driver that only counts.
 #include "allocation_count.h"
 #include "null_driver.h"
 #include "scene.h"
@@ -314,7 +314,7 @@ TEST(NullRecording, aFormatThatTheDeviceCannotFilterIsRefusedWithWhatItLacks)
         const char* said;
         const char* remedy;
     };
-    // Of vsm's own formats Vulkan promises none.
+    // Vulkan promises none of vsm's own formats.
     constexpr const char* kRemedy = "filter evsm with rgba16f";
     for (const Lack& lack : {Lack{VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, "write in shaders", kRemedy},
                              Lack{VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, "draw to", "another map format"},

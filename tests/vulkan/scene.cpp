@@ -116,7 +116,7 @@ std::vector<glm::vec3> meshPositions()
     return positions;
 }
 
-/// Of a normal in the box's own frame.
+/// The side of a box by a normal in the box's own frame.
 std::uint32_t sideOf(const glm::dvec3& n)
 {
     const glm::dvec3 a = glm::abs(n);
