@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the options of truth and comparison become.
+// The settings from options of truth and comparison.
 #include "folder.h"
 
 #include "app/command_line.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be done wrong with subcommands, options, files and values: one clear line on stderr, the right exit status,
-// nothing left behind.
+// Wrong uses of subcommands, options, files and values: one clear line on stderr, the right exit status, nothing left
+// behind.
 #include "wrong_usage.h"
 
 #include <gtest/gtest.h>

@@ -46,7 +46,7 @@ double worstInterpolation(const F& f)
     return worst;
 }
 
-/// Of the spacing of floats at `depth`; below 1.
+/// The spacing of floats at `depth`, which is below 1.
 double floatStepAt(double depth)
 {
     const auto at = static_cast<float>(depth);
@@ -191,8 +191,8 @@ double errorOfBytes()
     });
 }
 
-/// Of the fifteen taps of the published blur: the sum of their weights, where their centre lies in pixels, and the
-/// weight of the right side by that of the left.
+/// The fifteen taps of the published blur: the sum of their weights, their centre in pixels, and the weight of the
+/// right side divided by that of the left.
 struct PublishedBlur {
     double sum = 0.0;
     double centre_px = 0.0;

@@ -138,7 +138,8 @@ private:
     FrameTimes times_;
 };
 
-/// What arrives of each colour of a light at points of a pane, by what the pane is without shadows and without light.
+/// The share of each colour of a light that arrives at points of a pane, from pictures of the pane without shadows and
+/// without light.
 class Probe {
 public:
     Probe(Gpu& gpu, const Wish& wish)

@@ -83,7 +83,7 @@ TEST(Pieces, EndAtCreases)
     EXPECT_EQ(piecesOf(bentSheet(-kCreaseAngle_rad - 0.01)).count, 2U);
 }
 
-// What shares vertices is shaded as one surface, and a vertex has but one number.
+// Faces that share vertices are shaded as one surface, and a vertex has only one number.
 TEST(Pieces, AreOneWhereVerticesAreShared)
 {
     Primitive cube;
@@ -102,7 +102,7 @@ TEST(Pieces, AreOneWhereVerticesAreShared)
     expectSound(apart, piecesOf(apart));
 }
 
-// What does not touch is not one, however it lies; and numbers come again.
+// Faces that do not touch are separate pieces, wherever they lie; and numbers repeat.
 TEST(Pieces, AreCountedUpToTheMostThatThereAre)
 {
     Primitive many;

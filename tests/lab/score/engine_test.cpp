@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an engine does that draws by itself: it scores a mask of its own with plain images, a camera and a light. This
+// The use by an engine that draws by itself: it scores a mask of its own with plain images, a camera and a light. This
 // binary links neither our host nor the backend.
 #include "lab/score/score.h"
 #include "lab/score/traffic.h"
