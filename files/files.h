@@ -50,7 +50,7 @@ private:
 void requireWritable(const std::filesystem::path& file);
 
 /// Writes to a temporary name in the same folder, flushes, then renames: either the whole file is there or none of it,
-/// whoever else writes it at the same time. Removes the remains of a killed process's earlier try. Devices and pipes
+/// even if others write it at the same time. Removes the remains of a killed process's earlier try. Devices and pipes
 /// are written to in place, and this waits for a pipe's reader. Throws Error, ClosedPipe where that reader goes, and
 /// any exception of callWhileWaiting()'s function.
 void writeFile(const std::filesystem::path& file, std::string_view bytes);

@@ -26,7 +26,8 @@ struct FinishedFrame {
     vulkan::ImageRef glow;      // sum of the levels of bloom; null without it
     vulkan::ImageRef depth;     // reversed z
     vulkan::ImageRef normals;   // geometric, octahedral; null of a frame shaded forward
-    vulkan::ImageRef ids;       // object + 1 in the last channel, anything where nothing is drawn; likewise
+    vulkan::ImageRef ids;       // object + 1 in the last channel, anything where nothing is drawn; null of a frame
+                                // shaded forward
     vulkan::ImageRef masks;     // null where everything is lit
     bool compact_masks = false; // `masks` has RenderOptions::compact_mask
     std::size_t light_count = 0;

@@ -63,7 +63,7 @@ struct LightsInSight {
 [[nodiscard]] LightsInSight lightsInSight(std::span<const ShadedLight> lights, const Camera& camera,
                                           const Aabb& scene_bounds_ws, std::uint32_t first);
 
-/// The camera of a frame: reversed z, y down. Used by whoever needs the same view as the picture (plan, truth).
+/// The camera of a frame: reversed z, y down. Plan and truth use it for the same view as the picture.
 [[nodiscard]] Camera cameraOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws);
 /// Fills an ObjectSet with a state's objects (index by index) or updates it. `closed`: closedObjects(), for
 /// ObjectFlags::closed of those that it adds; empty: none is. `pieces`: pieceCounts(), for ObjectFlags::pieces; empty:

@@ -72,7 +72,7 @@ struct TimingOptions {
 struct Timed {
     std::vector<host::FrameTimes> samples;
     Counters counters; // of the last frame
-    LeastByPass least; // likewise
+    LeastByPass least; // of the last frame
     Plan plan;         // of the last frame; without shadows: empty
     MapPages atlas;
     std::vector<std::pair<std::string, std::uint64_t>> added_memory; // beyond the frame without shadows, by purpose

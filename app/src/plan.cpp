@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `gnomon plan`: the plan of a frame as JSON, or a light's maps as a picture. Uses core alone, so it needs no GPU and
-// says the same on every machine; but for lvsm's layers of depth where they follow what is drawn (lloyd): those are
+// is the same on every machine. The exception is lvsm's layers of depth that follow drawn depths (lloyd): those are
 // drawn and read back.
 #include "app/shot.h"
 #include "plan_layers.h"

@@ -42,7 +42,7 @@ struct SweepPlan {
 struct SweepResult {
     struct Point {
         std::optional<lab::ErrorNumbers> error;  // absent when no pixel counts
-        std::optional<lab::ClassErrors> classes; // likewise
+        std::optional<lab::ClassErrors> classes; // absent when no pixel counts
         Outcome outcome;
     };
     /// The same for all techniques.

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kNames = 100; // as many processes may make one file at a time
-constexpr int kGap = 8;     // so many free names in a row: no more are taken
+constexpr int kGap = 8;     // after this many free names in a row no more are taken
 
 fs::path nameOf(const fs::path& target, int n)
 {

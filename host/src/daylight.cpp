@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kSun_lx = 128000.0; // outside the air
-constexpr double kMoon_lx = 0.32;    // full, likewise
+constexpr double kMoon_lx = 0.32;    // full, outside the air
 constexpr double kStars_lx = 0.002;  // with airglow, on level ground
 constexpr double kDarkest_lx = 0.03; // eyes get used to no less light than that
 const glm::dvec3 kStarlight{0.8, 1.0, 1.3};

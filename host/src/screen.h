@@ -33,9 +33,9 @@ public:
     {
         targets.needGBuffer(memory_, formats, shape);
     }
-    /// Likewise for ambient occlusion.
+    /// Makes the images of ambient occlusion. Throws Error.
     void needOcclusion();
-    /// An image for masks of someone else's, with so many layers at least.
+    /// An image for `masks_instead`, with at least `layers` layers.
     [[nodiscard]] const Image& insteadFor(std::uint32_t layers);
     [[nodiscard]] const std::vector<vulkan::MemoryUse>& memory() const { return memory_.uses(); }
 

@@ -82,7 +82,7 @@ public:
     struct Step {
         std::uint64_t matched = 0;
         double mean_abs = 0.0;     // of D; 0 when nothing matched
-        double mean_squared = 0.0; // likewise
+        double mean_squared = 0.0; // of D; 0 when nothing matched
     };
 
     /// Frames in order. `before`: null at the first. One channel each, of one size. A value that is not a number makes

@@ -31,7 +31,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSuffix = ".truth";
 constexpr std::size_t kKeyDigits = 32;
-/// No store takes so long: whoever wrote the file was killed, and nobody has stored or read that entry again.
+/// No store takes this long: the process that wrote the file was killed, and nobody has stored or read that entry
+/// again.
 constexpr std::chrono::hours kTemporaryLifetime{1};
 
 bool isEntryName(std::string_view name)

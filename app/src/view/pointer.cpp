@@ -12,7 +12,7 @@
 namespace gnomon::app::view {
 namespace {
 
-/// So many times a fifteenth of a letter's height: a pixel on a common screen, more on a dense one.
+/// `count` times a fifteenth of a letter's height: a pixel on a common screen, more on a dense one.
 float fine(float count)
 {
     return count * ImGui::GetFontSize() / 15.0F;

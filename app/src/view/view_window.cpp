@@ -30,7 +30,7 @@ glm::uvec2 windowSize(const Settings& settings)
     return {std::min(settings.size_px.x, kMost) + kPanel_px, std::min(settings.size_px.y, kMost)};
 }
 
-/// A processor that draws takes its time for each pixel; whoever asks for a size has it whole.
+/// A software rasteriser is slow for each pixel, so it starts at half size unless a size was given.
 bool startsAtHalfSize(const Settings& settings, const host::Gpu& gpu)
 {
     return gpu.software() && !settings.given.contains("size");

@@ -72,7 +72,7 @@ bool Viewer::refuse(const std::string& why)
     return false;
 }
 
-/// A lost device is not the viewer's to mend: it goes on to whoever has the window.
+/// The viewer cannot recover a lost device, so the Error goes on to the window's owner.
 bool Viewer::refuseUnlessLost(const Error& error)
 {
     if (error.kind() == ErrorKind::device_lost) {
