@@ -13,7 +13,7 @@
 
 namespace gnomon::worlds {
 
-/// Stands on the deck, upright there: +x is along the ring, +y up, +z across. `yaw_rad` turns about up.
+/// The transform of a thing upright on the deck: +x is along the ring, +y up, +z across. `yaw_rad` turns about up.
 [[nodiscard]] Transform onRing(double tiles, double across_m, float yaw_rad = 0.0F, double height_m = 0.0,
                                float scale = 1.0F);
 

@@ -14,7 +14,7 @@ enum class Room : std::uint8_t { bar, lounge, garden, market, berths, lab, store
 
 /// The room of a sector's side, -1 or 1 (of z).
 [[nodiscard]] Room roomOf(int sector, int side);
-/// Gardens and markets are open.
+/// Whether the room has walls: gardens and markets are open.
 [[nodiscard]] bool isWalled(Room room);
 
 /// Whether clip planes cut away the upper part of the room's front and the things that hang there. The game did so
