@@ -112,7 +112,7 @@ void notePath(const CompareResult& result, Notes& notes)
 
 std::string pixelsNote(const Json& pixels, std::uint64_t rays)
 {
-    constexpr std::uint64_t kFew = 20; // one in so many
+    constexpr std::uint64_t kFew = 20; // one in twenty
     const auto counted = pixels.at("counted").get<std::uint64_t>();
     if (counted == 0) {
         return fmt::format("no pixel counts, so there are no error numbers: {}{}", pixelsText(pixels),

@@ -177,7 +177,7 @@ TEST(Settings, TheLightsSizeIsForTechniquesThatLookAtIt)
     EXPECT_EQ(toldOf("hard,pcf+converge"), 0U);
 }
 
-// A preset is handed on; what is overwritten here is not for whoever wrote it to say.
+// Presets are handed on, so their authors must not choose which files are overwritten here.
 TEST(Settings, OfAPresetNameNothingThatIsWritten)
 {
     const test::Folder folder;

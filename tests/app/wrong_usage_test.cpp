@@ -122,7 +122,7 @@ TEST_P(WrongUsage, IsOneLineAndLeavesNothing)
 INSTANTIATE_TEST_SUITE_P(Table, WrongUsage, testing::ValuesIn(kWrong),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// The same of the built program.
+/// Wrong uses of the built program.
 class WrongUsageOfTheProgram : public testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongUsageOfTheProgram, IsOneLineAndLeavesNothing)

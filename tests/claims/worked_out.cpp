@@ -133,7 +133,7 @@ double densityAtEdge(double fov_deg)
     return 1.0 / (cosine * cosine);
 }
 
-/// One step of depth at the far plane, in metres, near 0.1 m and far 1000 m, in so many bits.
+/// One step of depth of `bits` bits at the far plane, in metres, with near 0.1 m and far 1000 m.
 double stepOfBits(int bits)
 {
     return std::exp2(-bits) * (kFar_m - kNear_m);
@@ -215,7 +215,7 @@ PublishedBlur publishedBlur()
     return {sum, moment / sum, right / left};
 }
 
-/// Texels between the published taps of a kernel, whose offsets are divided by w, so many metres from the lamp.
+/// Texels between the published taps of a kernel, whose offsets are divided by w, `distance_m` metres from the lamp.
 double publishedTapsApart(double distance_m)
 {
     return 1.0 / distance_m; // w is the depth along the lamp's axis

@@ -260,7 +260,7 @@ TEST(Multi, SpendsTheTexelsThatAreLeft)
     EXPECT_LT(many.texel_px, 0.85 * some.texel_px);
 }
 
-// A host that says how many a pixel gets has so many, and no more where fewer do.
+// A host that sets the texels of a pixel gets that many, and no more where fewer are enough.
 TEST(Multi, SpendsNoMoreThanIsAskedFor)
 {
     Hall hall = fortyLamps();

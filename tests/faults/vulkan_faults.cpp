@@ -180,7 +180,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vkGetInstanceProcAddr(VkInstance instan
     return real<decltype(vkGetInstanceProcAddr)>("vkGetInstanceProcAddr")(instance, name);
 }
 
-/// Whoever looks a function up gets ours too, where there is one.
+/// Gives our function to callers that look one up, where there is one.
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vkGetDeviceProcAddr(VkDevice device, const char* name)
 {
 #define GNOMON_OURS(function)                                                                                          \

@@ -172,7 +172,7 @@ constexpr std::uint32_t kHeight = 120;
 constexpr float kWallX = -2.0F;
 constexpr float kWallHeight = 0.3F;
 
-/// A floor at y = 0, black but for what is diffuse, and maybe a wall at x = kWallX; a sky of one colour.
+/// A floor at y = 0 with diffuse reflection only, and maybe a wall at x = kWallX; a sky of one colour.
 scene::Scene cornerScene(bool with_wall, float albedo)
 {
     scene::Scene scene;

@@ -28,7 +28,7 @@ RenderOptions optionsOf(Soften soften)
     return options;
 }
 
-/// So is all that is within so many pixels.
+/// Whether all pixels within `reach` have the wanted value.
 bool isAround(float wanted, const ImageF& mask, std::uint32_t x, std::uint32_t y, std::uint32_t reach)
 {
     for (std::uint32_t v = y - reach; v <= y + reach; ++v) {

@@ -191,8 +191,8 @@ std::vector<ShadowOptions> someTechniques()
             plainWith(Filter::pcf, Partition::cascades), plainWith(Filter::pcf, Partition::sdsm)};
 }
 
-// The same function of the same point of the same maps, but for the rounding of a mask of 8 bits, and of a point that
-// the mask takes from the depth buffer.
+// The same function of the same point of the same maps, except for the rounding of a mask of 8 bits, and of a point
+// that the mask takes from the depth buffer.
 TEST_F(TintedReceiver, HasTheLightOfAnOpaqueSurfaceInItsPlace)
 {
     for (const Translucent translucent : {Translucent::colour, Translucent::grey}) {

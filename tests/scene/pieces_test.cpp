@@ -23,7 +23,7 @@ void addQuad(Primitive& to, const glm::vec3& a, const glm::vec3& b, const glm::v
     }
 }
 
-/// A prism with so many sides, each with vertices of its own.
+/// A prism with `sides` sides, each with vertices of its own.
 Primitive prism(std::uint32_t sides)
 {
     Primitive made;
@@ -45,7 +45,7 @@ Primitive prism(std::uint32_t sides)
     return made;
 }
 
-/// Two squares that share an edge, the second one turned up by so many radians.
+/// Two squares that share an edge, the second one turned up by `angle` radians.
 Primitive bentSheet(double angle)
 {
     Primitive made;

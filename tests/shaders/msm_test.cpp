@@ -75,7 +75,7 @@ double quantised16(double x)
 }
 
 // Where a root is outside of the interval, distributions inside of it shadow more. The shader takes the smaller bound
-// of both; here it is the second one as it stands, but for what double precision makes of small pivots.
+// of both; here it is the second one, except for the errors of small pivots in double precision.
 void expectEndpointBoundIsTighter(const glm::dvec4& b, double z)
 {
     const Hankel h = factorise(b, kLeastLastPivot);

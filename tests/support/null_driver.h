@@ -86,8 +86,8 @@ public:
     [[nodiscard]] vulkan::DeviceView view();
     [[nodiscard]] VkCommandBuffer commands(); // the only one
     [[nodiscard]] VkBuffer makeBuffer();      // some handle to bind; not counted
-    [[nodiscard]] VkImageView makeView();     // likewise
-    /// Destroys a view of makeView() and makes another one that has the same handle, as a driver is free to.
+    [[nodiscard]] VkImageView makeView();     // some handle; not counted
+    /// Destroys a view of makeView() and makes another one that has the same handle, as a driver may.
     void remakeView(VkImageView view);
 
     /// Ends the frame that was recorded with this slot, and begins a new one, which is pending until the next call with

@@ -100,7 +100,7 @@ TEST(Run, IsPatientWithSlowRows)
     }));
 }
 
-/// So many triangles that Embree tells of a building's progress more than once.
+/// Enough triangles that Embree reports a building's progress more than once.
 scene::Scene balls(std::uint32_t count)
 {
     scene::Scene scene;

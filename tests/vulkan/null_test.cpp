@@ -104,7 +104,7 @@ TEST(NullRecording, passesComeInOrder)
     EXPECT_EQ(driver.counts().instances, 2 * (1 + host.scene.boxes.size()));
     EXPECT_EQ(driver.counts().indices, 2 * (6 + 36 * host.scene.boxes.size()));
     EXPECT_EQ(host.drawer.triangles(), driver.counts().indices / 3);
-    // Two layers to attachment and back, the mask likewise; what stands in for ids of objects.
+    // Two layers and the mask go to attachment and back; one more for the stand-in of object ids.
     EXPECT_EQ(host.count(Kind::barrier), 7U);
     EXPECT_EQ(host.count(Kind::end_rendering), passes.size());
 }

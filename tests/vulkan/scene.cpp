@@ -344,7 +344,7 @@ Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const
 
 void MapNames::name(Plan& plan)
 {
-    static ContentNumber last = 0; // no number twice, whoever gives it
+    static ContentNumber last = 0; // no number is given twice, by any MapNames
     contents_.resize(std::max(contents_.size(), plan.views.size()));
     plan.map_count = static_cast<std::uint32_t>(2 * contents_.size());
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {

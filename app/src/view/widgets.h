@@ -37,8 +37,8 @@ public:
              const std::function<std::string(std::size_t)>& refusal = nullptr,
              const std::function<std::string(std::size_t)>& about = nullptr);
 
-    /// Middle of the widget of this label in the last turn, pixels of the window; whoever tries the window asks for
-    /// it. Items of an open list are "LABEL/ITEM". Null where it was not there, or is not to be seen.
+    /// Middle of the widget of this label in the last turn, pixels of the window; for tests of the window. Items of an
+    /// open list are "LABEL/ITEM". Null where it was not there, or is not to be seen.
     [[nodiscard]] const glm::dvec2* placeOf(std::string_view label) const;
     /// The panel moves so that this one is seen.
     void reveal(std::string label) { revealed_ = std::move(label); }

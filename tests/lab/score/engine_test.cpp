@@ -108,7 +108,7 @@ TEST(EngineScore, KnowsWhatItsMapsDeliver)
         const Plan& plan = planner.plan(frame);
         const TexelDensity delivered = texelDensity(seen, counted, plan, 0, 1.0);
         EXPECT_GT(delivered.counted, 1000U);
-        if (map_size == 512) { // twice the texels along each side, but for the border, which is of a fixed width
+        if (map_size == 512) { // twice the texels along each side, except for the border of fixed width
             EXPECT_NEAR(delivered.p50 / density, 2.0, 0.1);
         }
         density = delivered.p50;
