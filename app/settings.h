@@ -147,7 +147,7 @@ struct Settings {
     std::uint32_t warmup = 0;
     std::string draw;    // plan: the SVG file that shows a light's maps; empty: none
     std::string report;  // compare, bench: folder for a page; empty: none
-    std::string against; // bench: the earlier result that this one is held against; empty: none
+    std::string against; // bench: the earlier result that this one is compared with; empty: none
     bool equal_error = false;
     std::optional<Sweep> sweep;
     std::string test_image; // metrics: the two files

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One bench held against an earlier one: which counters have grown, and which times by more than they spread.
+// One bench compared with an earlier one: which counters have grown, and which times by more than their spread.
 #pragma once
 
 #include "bench_figures.h"

@@ -39,7 +39,7 @@ struct EqualError {
     std::optional<double> pcf_ms;
     std::optional<double> without_ms;   // without shadows
     std::optional<double> shadow_ratio; // `ratio` of the frames less the one without shadows; nothing: none is left
-    std::uint32_t tried = 0;            // settings of PCF that were held against the technique's error
+    std::uint32_t tried = 0;            // settings of PCF whose error was compared with the technique's
     std::string reason;                 // a sentence; empty when there is a ratio
 };
 
@@ -49,7 +49,7 @@ struct EqualError {
                                                      const std::function<std::optional<double>(std::size_t)>& rmse_of,
                                                      std::uint32_t& tried);
 
-/// Finds the match of one technique after another. Each PCF is drawn at most once; all are held against one truth.
+/// Finds the match of one technique after another. Each PCF is drawn at most once; all are compared with one truth.
 class EqualErrorSearch {
 public:
     /// `step` is called about once a frame and may throw to stop. All arguments must outlive the search.

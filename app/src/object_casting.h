@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// --set object and --set light-groups: who casts and who receives, for whom.
+// --set object and --set light-groups: which objects cast and receive, for which lights.
 #pragma once
 
 #include "app/shot.h"

@@ -167,7 +167,7 @@ void applyEntry(Settings& settings, const std::string& key, const Json& value, s
         requireType(*setting, value);
     }
     if (setting != nullptr &&
-        setting->command_line_only) { // who runs a preset would not see what it overwrites or reads
+        setting->command_line_only) { // a preset's user would not see what it overwrites or reads
         throw UsageError(fmt::format("{} {} of this run alone; give it on the command line", key,
                                      setting->type == SettingType::flag ? "is" : "names a file"));
     }

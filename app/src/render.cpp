@@ -71,8 +71,7 @@ void noteOutcomes(const Shot& shot, const Plan& plan)
     }
 }
 
-/// A motion that joins two positions of a sun has one where nothing moves it: who asked for a single picture may not
-/// know.
+/// Notes that a motion that joins two positions of a sun has only one in a single picture, where nothing moves the sun.
 void notePositions(const Settings& settings, const Plan& plan)
 {
     const Motion motion = settings.shadow.technique.motion;

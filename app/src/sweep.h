@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One setting takes many values, and every technique is held against the same truth at each: error over value. Where
+// One setting takes many values, and every technique is compared with the same truth at each: error over value. Where
 // the setting is not the technique's, the shot and its truth are made anew for each value.
 #pragma once
 

@@ -267,7 +267,7 @@ bool Search::takesAll(const Taker& taker, const Light& light)
     if (points.empty()) {
         return false;
     }
-    points.push_back(shot_.eye.position_ws); // who is inside looks at what is lit
+    points.push_back(shot_.eye.position_ws); // a camera inside sees lit surfaces
     const auto isDarkInTime = [&](const glm::dvec3& p) {
         return tests_ <= kMostTests && isDark(p, light);
     };

@@ -42,7 +42,7 @@ private:
     std::vector<Squad> squads_;
 };
 
-/// A figure of three metres with a skin over eleven joints, who walks the far round by himself.
+/// A figure of three metres with a skin over eleven joints, which walks the far round alone.
 class Giant {
 public:
     /// `start_m`: how far along his loop he is at time 0.
