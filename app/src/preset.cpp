@@ -166,8 +166,7 @@ void applyEntry(Settings& settings, const std::string& key, const Json& value, s
     if (setting != nullptr) {
         requireType(*setting, value);
     }
-    if (setting != nullptr &&
-        setting->command_line_only) { // a preset's user would not see what it overwrites or reads
+    if (setting != nullptr && setting->command_line_only) { // a preset's user would not see what it overwrites or reads
         throw UsageError(fmt::format("{} {} of this run alone; give it on the command line", key,
                                      setting->type == SettingType::flag ? "is" : "names a file"));
     }
