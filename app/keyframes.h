@@ -33,7 +33,7 @@ private:
     std::vector<Key> keys_;
 };
 
-/// What a file's keys say. A track without a key leaves alone what it is about.
+/// The tracks of a path's file. A track without a key changes nothing.
 struct Keyframes {
     KeyTrack eye_ws;
     KeyTrack target_ws;
@@ -42,11 +42,11 @@ struct Keyframes {
     KeyTrack time_s;  // x
 };
 
-/// {"keys": [{"at": 0, "eye": [x, y, z], "target": [x, y, z], "fov": 45, "sun": [x, y, z], "time": 0}, ...]}: `at` in
-/// seconds since the path's first frame, ascending; of the others each key has any, one at least. Throws Error with one
-/// line that names the place by a JSON pointer. `name` is what that line calls it.
+/// {"keys": [{"at": 0, "eye": [x, y, z], "target": [x, y, z], "fov": 45, "sun": [x, y, z], "time": 0}, ...]}: `at` is
+/// in seconds since the path's first frame and ascends; each key has one or more of the others. Throws Error with one
+/// line that names the place by a JSON pointer. That line calls the text `name`.
 [[nodiscard]] Keyframes parseKeyframes(std::string_view text, std::string_view name);
-/// The same from a file of 16 MiB at most.
+/// Reads and parses a file of 16 MiB at most.
 [[nodiscard]] Keyframes readKeyframes(const std::filesystem::path& file);
 
 } // namespace gnomon::app

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras and suns that move by themselves: --path. Where they are is a pure function of the frame and of where they
-// were at the first one.
+// Cameras and suns that move by themselves: --path. Their places are a pure function of the frame and of their start.
 #pragma once
 
 #include "app/keyframes.h"
@@ -23,8 +22,8 @@ namespace gnomon::app {
 
 enum class PathKind : std::uint8_t { pan, orbit, dolly, zoom, day, keys };
 
-// How fast named paths go at path.speed 1, each per second. At 1280x720 and 30 frames per second what is at the
-// target's distance moves by one to three pixels from one frame to the next, what is nearer by more.
+// How fast named paths go at path.speed 1, each per second. At 1280x720 and 30 frames per second things at the target's
+// distance move by one to three pixels from one frame to the next, nearer things by more.
 inline constexpr double kPanHeights = 0.125; // heights of the picture at the target's distance, to the right
 inline constexpr double kOrbitDeg = 12.0;    // degrees about the camera's up, against the clock seen from above
 inline constexpr double kDollyShare = 0.1;   // of the distance to the target; the target goes along
@@ -41,7 +40,7 @@ struct ScriptedPath {
     PathKind kind = PathKind::pan;
     Keyframes keys;                     // of a file
     host::Eye start;                    // the camera at the first frame
-    double focus_m = 1.0;               // from there to what is looked at
+    double focus_m = 1.0;               // from there to the target
     glm::dvec3 right_ws{1.0, 0.0, 0.0}; // of the start's picture
     std::size_t sun = 0;                // which of the shot's lights it moves, if it moves the sun
     glm::dvec3 sun_ws{0.0, -1.0, 0.0};  // the way sunlight travels at the first frame; unit
@@ -53,7 +52,7 @@ struct ScriptedPath {
 
 [[nodiscard]] std::span<const std::string_view> pathNames();
 
-/// Camera and sun so many seconds from the first frame; what the path does not move is as at the start. Continuous.
+/// Camera and sun `s` seconds from the first frame; one that the path does not move stays at its start. Continuous.
 [[nodiscard]] PathSpot pathAt(const ScriptedPath& path, double s);
 
 /// The sun of a scene that does not move it: frame 0 is noon. It goes to the side at constant speed on the great circle
@@ -64,10 +63,10 @@ struct ScriptedPath {
 /// Seconds along the path from the first of --frames to `frame`, times path.speed.
 [[nodiscard]] double pathSeconds(const Settings& settings, std::uint32_t frame);
 
-/// Throws UsageError for what does not go together with --path, and for --frames that need one.
+/// Throws UsageError for settings that contradict --path, and for --frames that need one.
 void validatePath(const Settings& settings);
-/// Reads --path's file; of a named path the name. Nothing without --path. Throws UsageError for a name that is none and
-/// for keys of what another option says already; Error for a file that is wrong.
+/// Reads --path's file, or takes the named path. Nothing without --path. Throws UsageError for an unknown name and for
+/// keys that another option contradicts; Error for a wrong file.
 [[nodiscard]] std::optional<ScriptedPath> openPath(const Settings& settings);
 /// Throws UsageError when at one of --frames the camera has no direction, no way up, or no place.
 void requireCameras(const ScriptedPath& path, const Settings& settings);

@@ -41,7 +41,7 @@ struct PointLight {
     glm::dvec3 position_ws{0.0};
     double range_m = 1.0;
 };
-/// --set object: what is said of the nodes of a name.
+/// --set object: how the nodes of a name cast and receive.
 struct NamedCasting {
     std::string name;
     scene::Casting casting;
@@ -53,7 +53,7 @@ struct NamedGroups {
 };
 /// Whether a ground is put under the scene; automatic: under a file that has none of its own.
 enum class Ground : std::uint8_t { automatic, on, off };
-/// Of a file.
+/// The axis that points up in a file.
 enum class UpAxis : std::uint8_t { y, z };
 struct FrameRange {
     std::uint32_t first = 0;
@@ -69,8 +69,8 @@ struct Sweep {
     bool logarithmic = false; // values by equal factors: key=from:to:steps:log
 };
 
-/// What one run was asked to do. Made by defaultSettings() and changed by applySetting() only, so that `values` tells
-/// all.
+/// The settings of one run. Only defaultSettings() makes them and only applySetting() changes them, so `values` is
+/// complete.
 struct Settings {
     std::uint32_t subcommand = 0; // kRender ...; 0: none, as where no command line was read
     std::string scene = "rts";
@@ -147,7 +147,7 @@ struct Settings {
     std::uint32_t warmup = 0;
     std::string draw;    // plan: the SVG file that shows a light's maps; empty: none
     std::string report;  // compare, bench: folder for a page; empty: none
-    std::string against; // bench: the earlier result that this one is held against; empty: none
+    std::string against; // bench: the earlier result that this one is compared with; empty: none
     bool equal_error = false;
     std::optional<Sweep> sweep;
     std::string test_image; // metrics: the two files
@@ -162,15 +162,14 @@ struct Settings {
     /// Keys that the command line or a preset named: not left at their defaults.
     std::set<std::string, std::less<>> named;
 
-    /// Lights of its own, and not the scene's.
+    /// Does the run place lights instead of the scene's?
     [[nodiscard]] bool placesLights() const { return sun_ws || spot || !points.empty(); }
 };
 
 enum class SettingType : std::uint8_t { flag, integer, real, choice, numbers, size, range, text };
 enum class SettingGroup : std::uint8_t { picture, camera, light, technique, truth, time, run, result };
 
-/// A parsed and range-checked value; the member of the setting's type holds: `numbers` also of a size and a range (2
-/// each), `text` also of a text.
+/// A parsed and range-checked value, in the member of the setting's type. A size and a range are two `numbers` each.
 using SettingValue = OptionValue;
 
 inline constexpr std::uint32_t kRender = 1;
@@ -207,7 +206,7 @@ struct Setting {
     std::string_view doc;                // one line
     std::uint32_t subcommands = kFrames; // which have it
     bool own_option = true;              // false: only --set, presets and techniques
-    bool command_line_only = false;      // no part of what is done: what is written, or only read
+    bool command_line_only = false;      // decides only what is written or read, not what is done
     bool repeatable = false;             // each use adds to the ones before
     std::string_view separator = " ";    // between the uses of a repeatable one in `values`
     bool (*used)(const Settings&) = nullptr; // null: always has an effect
@@ -220,40 +219,41 @@ struct Setting {
 [[nodiscard]] const Setting* findSetting(std::string_view key);
 /// Has it an effect with these settings?
 [[nodiscard]] bool isUsed(const Setting& setting, const Settings& settings);
-/// What one types for it: "--size", "--set pcf.taps".
+/// How one types it: "--size", "--set pcf.taps".
 [[nodiscard]] std::string spelled(const Setting& setting);
 
-/// What --aa auto is: fxaa for a picture that is looked at, none for one that is measured or a mask.
+/// The anti-aliasing of the picture. --aa auto is fxaa for a picture to look at, none for one that is measured or a
+/// mask.
 [[nodiscard]] host::AntiAliasing antiAliasingOf(const Settings& settings);
-/// Likewise of ambient-occlusion, which a mask and forward shading have none of.
+/// Whether the picture has ambient occlusion. A mask and forward shading have none.
 [[nodiscard]] bool hasOcclusion(const Settings& settings);
 
 /// All defaults applied.
 [[nodiscard]] Settings defaultSettings();
 /// Parses, checks and applies one value. Throws UsageError that names the setting, what is wrong and what is allowed.
 void applySetting(Settings& settings, const Setting& setting, std::string_view text);
-/// The same by key; an unknown key's UsageError suggests the nearest.
+/// Applies one value by its key. The UsageError for an unknown key suggests the nearest one.
 void applySetting(Settings& settings, std::string_view key, std::string_view text);
 /// Throws UsageError for a key that no setting has, with the nearest.
 [[noreturn]] void refuseKey(std::string_view key);
-/// Forgets the place of the camera that was set the other way: what is said last holds. `latest` is --camera, --eye or
+/// Forgets the camera's place that was set the other way, so that the latest holds. `latest` is --camera, --eye or
 /// --target; other keys change nothing.
 void replaceCamera(Settings& settings, std::string_view latest);
-/// Of lvsm.placement, lvsm.splits and lvsm.world the other two; of other keys nothing.
+/// For one of lvsm.placement, lvsm.splits and lvsm.world the keys that place layers otherwise; for other keys none.
 [[nodiscard]] std::span<const std::string_view> placementPartners(std::string_view key);
-/// For a key whose partner was given in the same place, before it is applied: throws UsageError when it would take back
-/// what was said, for depths where layers meet belong to layers placed by hand, and their ends to layers of the world.
+/// Called before a key is applied whose partner was given in the same place. Throws UsageError when the key contradicts
+/// it: lvsm.splits belongs to layers placed by hand, lvsm.world to layers of the world.
 void requireOnePlacement(const Settings& settings, std::string_view key, std::string_view text,
                          std::string_view partner);
 /// So that a list given later does not add to a preset's.
 void forgetTechniques(Settings& settings);
-/// Checks what takes more than one setting to see. Throws UsageError for what contradicts itself or cannot be had.
+/// Checks settings against each other. Throws UsageError where they contradict each other or cannot be had together.
 void validateSettings(const Settings& settings);
-/// What the command line gave and what changes nothing beside the rest, in the order of the table: a sentence each.
-/// What takes the scene to see is makeShot()'s to tell. Throws UsageError for the first one with --strict, and where
-/// contestants() does. Precondition: validateSettings() passed.
+/// A sentence for each given option that has no effect with the others, in the order of the table. makeShot() tells of
+/// those that depend on the scene. Throws UsageError for the first one with --strict, and where contestants() does.
+/// Precondition: validateSettings() passed.
 [[nodiscard]] std::vector<std::string> optionsWithoutEffect(const Settings& settings);
-/// Adds the sentence to those that people are told, each once; with --strict throws it as UsageError.
+/// Adds the sentence to `told` unless it is there; with --strict throws it as UsageError.
 void tellNoEffect(const Settings& settings, std::vector<std::string>& told, std::string sentence);
 /// Notes in `values` what follows from other settings (map format, border). Throws UsageError when the library refuses
 /// the options.

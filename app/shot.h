@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run looks at: the scene, the lights and the camera, put together from the file and the settings.
+// A shot: the scene, the lights and the camera of a run, made from the file and the settings.
 #pragma once
 
 #include "app/scripted_path.h"
@@ -15,8 +15,8 @@
 
 namespace gnomon::app {
 
-/// From where a scene is looked at that has no camera, and where its sun stands if it has no light. Of the scene at
-/// rest alone, so that neither changes while it moves.
+/// Where the eye stands in a scene without a camera, and the sun in a scene without a light. Both come from the scene
+/// at rest, so neither changes while it moves.
 struct Outlook {
     double azimuth_rad = 0.6; // of the eye, seen from the scene: 0 is +z, and it grows towards +x
     double elevation_rad = 0.4;
@@ -45,11 +45,11 @@ struct Shot {
 [[nodiscard]] Shot makeShot(const Settings& settings);
 /// Moves everything to a frame of --frames; camera and lights of the scene follow, and then the path.
 void moveShot(Shot& shot, const Settings& settings, std::uint32_t frame);
-/// What makeShot() asks of a technique before it draws this scene: another one may be taken afterwards. Throws Error
-/// for casters that filter volumes cannot count; adds to Shot::notices.
+/// Checks a technique before it draws this scene. makeShot() does so for its own; call it for one that is taken later.
+/// Throws Error for casters that filter volumes cannot count; adds to Shot::notices.
 void askOfTechnique(Shot& shot, const Settings& settings);
-/// How far the eye is from what it looks at, metres: where there is but a direction, from the point of it that is
-/// nearest to the middle of the scene.
+/// The distance from the eye to its target, metres. An eye with only a direction has as target the point along it that
+/// is nearest to the middle of the scene.
 [[nodiscard]] double focusOf(const Shot& shot);
 /// The scene's time at a frame, if no path says otherwise.
 [[nodiscard]] double timeOf(const Settings& settings, std::uint32_t frame);
@@ -58,19 +58,19 @@ void askOfTechnique(Shot& shot, const Settings& settings);
 /// there.
 [[nodiscard]] std::size_t lightIndex(const Shot& shot, const Settings& settings);
 /// Adds to Shot::notices that --sun-angle, --light-size or a setting of spot lights is given and none of `lights`, some
-/// of the shot's, has such a size. Throws UsageError with --strict, and for what is swept: there would be nothing to
-/// see. makeShot() asks it of all of a shot's lights.
+/// of the shot's, has such a size. Throws UsageError with --strict, and for a setting that is swept: all its values
+/// would look alike. makeShot() calls it for all lights of a shot.
 void noteSizesWithoutEffect(Shot& shot, const Settings& settings, std::span<const host::ShadedLight> lights);
 
 [[nodiscard]] host::RenderOptions renderOptions(const Settings& settings);
 /// The frame that the library plans, over objects filled from the state (host::fillObjectSet).
 [[nodiscard]] std::vector<Light> castersOf(const Shot& shot);
 
-/// Around what is drawn, without a ground that was put in and without surroundings: a wide ground, a dome
-/// (surroundings.h).
+/// The box around what is drawn, without a ground that was put in and without surroundings, such as a wide ground or a
+/// dome (surroundings.h).
 [[nodiscard]] Aabb modelBounds(const Shot& shot);
-/// The shot's outlook, from as near as all of the model is in the picture, with its shadow on the ground if the first
-/// light is a sun; of a low sun's long shadow a part.
+/// The eye of the shot's outlook, as near as it has all of the model in the picture. Where the first light is a sun,
+/// the picture has the shadow on the ground too; a low sun's long shadow only in part.
 [[nodiscard]] host::Eye framedEye(const Shot& shot, double fov_y_rad, double aspect);
 
 } // namespace gnomon::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What everything that draws shares: the device by the settings, validation, masks as images.
+// Shared by all that draws: the device by the settings, validation, masks as images.
 #pragma once
 
 #include "app/settings.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole files in and out, for everything that reads what it did not write, and writes what others may read meanwhile.
+// Reading and writing of whole files, for files that others wrote and files that others may read meanwhile.
 #pragma once
 
 #include <gnomon/error.h>
@@ -13,8 +13,8 @@
 
 namespace gnomon {
 
-/// Whoever read the pipe that is written to has closed it, as `head` does once it has its lines. Not a failure that
-/// anybody has to hear of: a program ends without a word.
+/// The reader of the pipe that is written to has closed it, as `head` does once it has its lines. This needs no
+/// message: a program ends silently.
 class ClosedPipe : public Error {
 public:
     using Error::Error;
@@ -23,13 +23,13 @@ public:
 /// A plain file, open for reading. Pipes, sockets, devices and folders are none: they may have no end, or nothing yet.
 class PlainFile {
 public:
-    /// Never waits, for a pipe's writer neither. Nothing when there is no such file; `why` says why not.
+    /// Never waits, not even for a pipe's writer. Nothing when there is no such file; `why` says why not.
     [[nodiscard]] static std::optional<PlainFile> open(const std::filesystem::path& file, std::string& why);
     PlainFile(PlainFile&& other) noexcept;
     PlainFile& operator=(PlainFile&& other) = delete;
     ~PlainFile();
 
-    /// As many as it had when it was opened.
+    /// The file's size when it was opened.
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
     /// The next `count` bytes, or as many as there are. Nothing when the system cannot read it: errno says why.
     [[nodiscard]] std::optional<std::size_t> read(void* to, std::size_t count);
@@ -40,8 +40,8 @@ private:
     std::uint64_t bytes_;
 };
 
-/// Throws Error when it cannot be read, is no plain file or has more than `max_bytes`. `what` is what the Error calls
-/// it: "reading WHAT FILE"; empty for a file without a name of its kind.
+/// Throws Error when it cannot be read, is no plain file or has more than `max_bytes`. The Error names the file's kind
+/// by `what`: "reading WHAT FILE"; empty for a kind without a name.
 [[nodiscard]] std::string readWholeFile(const std::filesystem::path& file, std::uint64_t max_bytes,
                                         std::string_view what = {});
 
@@ -50,16 +50,17 @@ private:
 void requireWritable(const std::filesystem::path& file);
 
 /// Writes to a temporary name in the same folder, flushes, then renames: either the whole file is there or none of it,
-/// whoever else writes it at the same time. What a killed process left of an earlier try is removed. Devices and pipes
-/// are written to in place, and a pipe's reader is waited for. Throws Error, ClosedPipe where that reader goes, and
-/// what callWhileWaiting()'s function throws.
+/// even if others write it at the same time. Removes the remains of a killed process's earlier try. Devices and pipes
+/// are written to in place, and this waits for a pipe's reader. Throws Error, ClosedPipe where that reader goes, and
+/// any exception of callWhileWaiting()'s function.
 void writeFile(const std::filesystem::path& file, std::string_view bytes);
 
-/// For the whole process: called some times a second, in the thread that waits, while writeFile() waits for a pipe's
-/// reader. What it throws ends the writing. Null, as in the beginning: the wait has no end but the reader.
+/// Sets, for the whole process, a function that is called some times a second while writeFile() waits for a pipe's
+/// reader, in the waiting thread. An exception from it ends the writing. Null, the default: only the reader ends the
+/// wait.
 void callWhileWaiting(void (*look)());
 
-/// Whether the name ends so (".png"), in capitals or not.
+/// Whether the name ends in `extension` (".png"), in capitals or not.
 [[nodiscard]] bool hasExtension(const std::filesystem::path& file, std::string_view extension);
 
 } // namespace gnomon

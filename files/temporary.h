@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is being made has a name of its own until it is whole, and takes that name along when its process dies.
+// A file or folder that is being made has a temporary name until it is whole; what a dying process leaves is removed
+// later.
 #pragma once
 
 #include <filesystem>
@@ -7,28 +8,28 @@
 namespace gnomon {
 
 /// ".NAME.N.tmp" beside NAME: an empty file or folder that nobody else uses. A lock (flock) on it says that it is in
-/// use and ends with the process, however that ends and on whichever host; so what lies there without one was left by a
-/// killed process and is removed by whoever makes the same NAME next. Where there are no locks, nothing is taken for
-/// left behind.
+/// use and ends with the process, however that ends and on any host. So one without a lock was left by a killed
+/// process, and the next process that makes NAME removes it. Where there are no locks, nothing counts as left behind.
 class Temporary {
 public:
     enum class Kind { file, folder };
 
     /// Throws Error when none can be had.
     Temporary(const std::filesystem::path& target, Kind kind);
-    /// Removes it, unless it was moved. A folder that there is no memory to look into stays for whoever makes the next.
+    /// Removes it, unless it was moved. Without the memory to look into a folder, the folder stays until NAME is made
+    /// next.
     ~Temporary();
     Temporary(const Temporary&) = delete;
     Temporary& operator=(const Temporary&) = delete;
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    /// Of the file or folder; it stays ours.
+    /// The descriptor of the file or folder; this object keeps it.
     [[nodiscard]] int descriptor() const { return descriptor_; }
-    /// Renames it, in the place of a file that is there. 0, or the errno: then it still is what it was.
+    /// Renames it and replaces a file that is there. Returns 0, or the errno: then nothing has changed.
     [[nodiscard]] int moveTo(const std::filesystem::path& place);
 
 private:
-    /// Of nothing yet.
+    /// Makes an object without a file or folder.
     explicit Temporary(Kind kind) : kind_(kind) {}
 
     Kind kind_;
@@ -36,12 +37,12 @@ private:
     int descriptor_ = -1;
 };
 
-/// What killed processes left while they made `target`. For who found that another has made it, and makes none. Throws
+/// Removes what killed processes left while they made `target`. For a process that finds `target` already made. Throws
 /// std::bad_alloc alone.
 void removeLeftBehind(const std::filesystem::path& target, Temporary::Kind kind);
 
-/// Keeps others that ask likewise from a folder's contents while it lives. Waits some seconds at most: a lock that
-/// somebody forgot is not to stop us.
+/// Keeps other FolderLocks from a folder while it lives. Waits some seconds at most, so that a forgotten lock does not
+/// stop us.
 class FolderLock {
 public:
     explicit FolderLock(const std::filesystem::path& folder);

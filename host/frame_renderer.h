@@ -24,14 +24,14 @@ namespace gnomon::host {
 /// side) and averages them.
 enum class AntiAliasing : std::uint8_t { none, fxaa, ssaa4 };
 
-/// How light becomes what a screen can show. `neutral`: Khronos PBR Neutral, 2024, which keeps hues. `filmic`: K.
-/// Narkowicz, 2015, of each channel by itself, which has more contrast and turns bright orange to yellow. Both show a
-/// grey of 18 % in full light alike.
+/// The tone curve from light to what a screen can show. `neutral`: Khronos PBR Neutral, 2024, which keeps hues.
+/// `filmic`: K. Narkowicz, 2015, applied to each channel by itself, which has more contrast and turns bright orange to
+/// yellow. Both show a grey of 18 % in full light alike.
 enum class ToneCurve : std::uint8_t { neutral, filmic };
 
-/// How surfaces reflect. `phong_2005`: by what A. S. Shastry's "Soft-Edged Shadows", 2005, shades with: no
-/// ambient light, a diffuse and a specular term of the base colour, the latter by the angle between eye and reflected
-/// ray to the power of 8. Blended surfaces stay as they are.
+/// How surfaces reflect. `phong_2005`: the shading of A. S. Shastry, "Soft-Edged Shadows", 2005: no ambient light, a
+/// diffuse and a specular term of the base colour, the latter by the angle between eye and reflected ray to the power
+/// of 8. Blended surfaces stay as they are.
 enum class Reflection : std::uint8_t { materials, phong_2005 };
 
 /// How a picture is shaded, once depths are drawn. `deferred`: surfaces go to a G-buffer, the library makes a mask of
@@ -39,15 +39,14 @@ enum class Reflection : std::uint8_t { materials, phong_2005 };
 /// (door 2 of docs/integrating.md), so that there is neither G-buffer nor mask.
 enum class Shading : std::uint8_t { deferred, forward };
 
-/// What is behind everything, and what light comes from there. `plain`: a gradient of the scene's colours
-/// (scene::Environment), whatever its lights do. `physical`: the air under the scene's sun and moon at their heights
-/// above the horizon, +y being up. Their colour, ambient light, stars, lit windows and the exposure follow from it. The
-/// sun is the directional light that says so (scene::Body), or the brightest that shines from above; a scene without
-/// one has the plain sky.
+/// The sky behind everything, and its light. `plain`: a gradient of the scene's colours (scene::Environment), whatever
+/// its lights do. `physical`: the air under the scene's sun and moon at their heights above the horizon, +y being up.
+/// Their colour, ambient light, stars, lit windows and the exposure follow from it. The sun is the directional light
+/// whose scene::Body is sun, or the brightest that shines from above; a scene without one has the plain sky.
 enum class SkyModel : std::uint8_t { plain, physical };
 
-/// Bloom: what is brighter than a threshold glows into its surroundings, as it does in every lens. Light is measured in
-/// exposed radiance, the unit of Picture::linear: ToneCurve::neutral shows 1 at 92 % of display white, filmic at 80 %.
+/// Bloom: light brighter than a threshold glows into its surroundings, as in every lens. Light is measured in exposed
+/// radiance, the unit of Picture::linear: ToneCurve::neutral shows 1 at 92 % of display white, filmic at 80 %.
 struct BloomOptions {
     bool on = false;
     float threshold = 0.8F;   // exposed radiance of the brightest channel from which on light glows in full; [0, 64]
@@ -58,10 +57,11 @@ struct BloomOptions {
 };
 
 /// Ambient occlusion: where surfaces near by hide part of the sky, its light is less. It is found from depths on the
-/// screen, so what is not in the picture hides nothing. Of light that no lamp or sun gives alone.
+/// screen, so surfaces outside the picture hide nothing. It leaves the light of lamps and suns as it is.
 struct AmbientOcclusionOptions {
     bool on = false;       // nothing where a frame is shaded forward, or Reflection has no ambient light
-    float radius_m = 0.0F; // how far what hides may be; [0, 1e6]. 0: found from the scene, see occlusionRadius()
+    float radius_m = 0.0F; // largest distance of a surface that hides; [0, 1e6]. 0: found from the scene, see
+                           // occlusionRadius()
 };
 
 struct RenderOptions {
@@ -76,12 +76,12 @@ struct RenderOptions {
     bool dither =
         false; // noise of one step at most, the same for ever at a pixel, before the picture is rounded to 8 bits
     Reflection reflection = Reflection::materials;
-    /// Forward: masks and geometry cannot be asked for (Error). Masks of someone else's are shaded deferred all the
+    /// Forward: masks and geometry cannot be asked for (Error). A frame with `masks_instead` is shaded deferred all the
     /// same.
     Shading shading = Shading::deferred;
-    /// Picture::linear may be asked for. False: what shades may write the finished picture at once. It does where the
-    /// scene has nothing that blends or emits, and there is neither bloom nor supersampling; to ask for it is an Error
-    /// then.
+    /// Picture::linear may be asked for. False: shading may write the finished picture at once. It does so where the
+    /// scene has nothing that blends or emits, and there is neither bloom nor supersampling; asking for Picture::linear
+    /// is an Error then.
     bool keeps_light = true;
     std::uint32_t frames_in_flight = 2; // how many frames the GPU may be behind; 1 to 4
     /// Changed by FrameRenderer::setShadows(). cascades.pass = layered is refused (Error) where ShadowRenderer refuses
@@ -89,14 +89,14 @@ struct RenderOptions {
     ShadowOptions shadow;
     bool shadows = true;    // false: no plan, no maps, every mask reads 1 (the baseline of frame_ratio)
     bool reuse_maps = true; // false: every map is drawn every frame whatever the plan says
-    /// A mask that would come out as the one before is left as it is (MaskInputs::content). False: masks are drawn in
-    /// every frame, as of a camera that moves.
+    /// A mask that would equal the last one is not drawn again (MaskInputs::content). False: masks are drawn in every
+    /// frame, as with a camera that moves.
     bool reuse_masks = true;
-    /// Each frame looks at another point of its pixels (convergeSample()), so that what is averaged over frames is
-    /// averaged over pixels too. The first looks at their middles.
+    /// Each frame samples another point of its pixels (convergeSample()), so that an average over frames is one over
+    /// pixels too. The first samples their middles.
     bool average_pixels = false;
-    /// vulkan::ShadowRendererOptions::compact. Then a frame's masks are no images of lights: Picture::masks cannot be
-    /// asked for (Error). Nothing where there are no shadows.
+    /// vulkan::ShadowRendererOptions::compact. A compact mask has no images by light, so Picture::masks cannot be asked
+    /// for (Error). No effect without shadows.
     pack::CompactMaskRule compact_mask;
     bool shows_rays = false; // vulkan::ShadowRendererOptions::shows_rays
 };
@@ -104,7 +104,7 @@ struct RenderOptions {
 /// Why a renderer of these options cannot shade forward, as a sentence's part; empty: it can.
 [[nodiscard]] std::string_view refusalOfForward(const RenderOptions& options);
 
-/// The passes of a frame, in order; a value that needs no heap. What does not fit is left out.
+/// The passes of a frame, in order; a value that needs no heap. Passes that do not fit are left out.
 class PassRecords {
 public:
     void push_back(const vulkan::PassRecord& pass)
@@ -137,10 +137,10 @@ struct FrameTimes {
 
 /// Draws frames of one size, one after the other. Several may share a scene.
 ///
-/// What waits for the GPU also throws what GpuOptions::while_waiting throws. A frame whose drawing threw is not drawn;
-/// the next one is drawn as a new renderer would. After Error with ErrorKind::device_lost only the destructors are of
-/// use, of this, of its scene and of its Gpu: they do not throw, and wait a few seconds at most. All can be made again
-/// with a new Gpu.
+/// Functions that wait for the GPU also throw what GpuOptions::while_waiting throws. A frame whose drawing threw is not
+/// drawn; the next one is drawn as a new renderer would. After Error with ErrorKind::device_lost only the destructors
+/// of this, of its scene and of its Gpu may be called: they do not throw, and wait a few seconds at most. All can be
+/// made again with a new Gpu.
 class FrameRenderer {
 public:
     /// Makes its pipelines. `scene` outlives it. Throws Error (limits, memory, device).
@@ -149,11 +149,11 @@ public:
     FrameRenderer(const FrameRenderer&) = delete;
     FrameRenderer& operator=(const FrameRenderer&) = delete;
 
-    /// From the next frame on. Frames that the GPU has not finished keep what they use. Throws Error, and then all
-    /// stays as it was.
+    /// Sets the size from the next frame on. Frames that the GPU has not finished keep their images. Throws Error, and
+    /// then all stays as it was.
     void resize(std::uint32_t width, std::uint32_t height);
-    /// Another technique from the next frame on, or none. It begins with empty maps. Frames that the GPU has not
-    /// finished keep what they use. Throws Error, and then all stays as it was.
+    /// Sets another technique from the next frame on, or none. It begins with empty maps. Frames that the GPU has not
+    /// finished keep their maps. Throws Error, and then all stays as it was.
     void setShadows(const std::optional<ShadowOptions>& wanted);
     [[nodiscard]] const RenderOptions& options() const;
 
@@ -167,13 +167,13 @@ public:
                 Present* present = nullptr, const std::vector<ImageF>* masks_instead = nullptr);
     /// Waits for the GPU to finish the last frame. Precondition: submit().
     FrameTimes finish();
-    /// Both at once.
+    /// submit() and finish().
     FrameTimes draw(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
                     const std::vector<ImageF>* masks_instead = nullptr);
-    /// The moment of the last draw() once more, from another eye: maps stay as they are, only the picture and its masks
-    /// are new. `state` and `lights` as they were then. For measuring what changes at a point of the world from frame
-    /// to frame. Does nothing for what a technique remembers of its frames, so what reads that (step-alternate) or
-    /// makes maps of the picture (sdsm) is not to be asked. Precondition: draw(), not with other masks.
+    /// Draws the moment of the last draw() again from another eye: only the picture and its masks are new, maps stay.
+    /// `state` and `lights` are as in that draw(). It serves to measure changes at a point of the world from frame to
+    /// frame. The technique's memory of frames stays as it is, so a technique that reads it (step-alternate) or makes
+    /// maps from the picture (sdsm) must not be used. Precondition: draw() without `masks_instead`.
     void drawAgain(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights);
 
     /// Waits for the last frame and reads it back. Throws Error when there is none.
@@ -182,13 +182,13 @@ public:
     /// [0, 1]. For tests and debug views. Throws Error when there is no such layer.
     [[nodiscard]] ImageF readMap(std::uint32_t layer);
 
-    // Of the last frame, which is waited for where the GPU knows the answer.
+    // These describe the last frame, and wait for it where the GPU has the answer.
     /// Its plan; views with ViewProjection::gpu_cascade as the GPU has fitted them.
     [[nodiscard]] const Plan& plan() const;
     /// Whether the mask's pass is given object ids: where some object does not receive, or the filter tells objects
     /// apart.
     [[nodiscard]] bool masksReadIds() const;
-    /// What making its maps filterable took; zeros without such passes.
+    /// The cost of making its maps filterable; zeros without such passes.
     [[nodiscard]] vulkan::FilterCost filterCost() const;
     /// lvsm: the layers of depth of a view of plan(), nearest first; else empty.
     [[nodiscard]] std::vector<pack::DepthLayer> depthLayers(std::uint32_t view) const;

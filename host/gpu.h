@@ -16,15 +16,15 @@ struct GpuOptions {
     /// Part of a device's name, "software" for a CPU rasteriser, or empty: the first real GPU, else software.
     std::string gpu;
     bool validate = false; // validation layer with synchronization validation; Error when it is not installed
-    /// Called some ten times a second for as long as the GPU is waited for, by whichever thread waits. What it throws
-    /// ends the wait and comes out of it, a few seconds later where the GPU is busy. Not to call the host's functions.
+    /// Called some ten times a second by a thread that waits for the GPU. An exception from it ends the wait and leaves
+    /// it, a few seconds later where the GPU is busy. It must not call the host's functions.
     std::function<void()> while_waiting;
-    /// Seconds after which a GPU of which nothing is heard is taken for one that hangs (Error,
-    /// ErrorKind::device_lost). Drivers that watch their GPU give up after some ten seconds by themselves. For a
-    /// software rasteriser only the time counts in which this process does nothing. Above 0.
+    /// Seconds without an answer after which the GPU counts as hanging (Error, ErrorKind::device_lost). Drivers that
+    /// watch their GPU give up after some ten seconds by themselves. For a software rasteriser only time in which this
+    /// process does nothing counts. Above 0.
     double patience_s = 120.0;
-    /// Instance extensions by which a window is drawn in, and whether a queue family can do so; forWindow() of
-    /// host/window/interface.h fills them in. Empty: no window is.
+    /// Instance extensions for drawing in a window, and whether a queue family can do so; forWindow() of
+    /// host/window/interface.h fills them in. Empty: no window.
     std::vector<const char*> surface_extensions;
     bool (*presents)(VkInstance instance, VkPhysicalDevice device, std::uint32_t queue_family) = nullptr;
     vulkan::ShaderHook shaders; // for the host's shaders too
@@ -46,15 +46,15 @@ public:
     [[nodiscard]] bool software() const;
     /// Validation messages so far (warnings and errors), in order. With `validate`, the program fails if any.
     [[nodiscard]] std::vector<std::string> messages() const;
-    /// On-disk pipeline cache, loaded from and stored to the user's cache folder; VK_NULL_HANDLE never.
     /// Whether images of this format can be used in all these ways, with optimal tiling.
     [[nodiscard]] bool formatCan(VkFormat format, VkFormatFeatureFlags uses) const;
+    /// On-disk pipeline cache, loaded from and stored to the user's cache folder. Never VK_NULL_HANDLE.
     [[nodiscard]] VkPipelineCache pipelineCache() const;
 
     [[nodiscard]] double patience_s() const;
     void lookUp() const; // calls GpuOptions::while_waiting
-    /// The GPU did not end what it was given. From now on nothing of the device is destroyed, nor the device itself:
-    /// the GPU may still be at work with it.
+    /// To be called when the GPU did not finish its work. From then on neither the device nor anything of it is
+    /// destroyed: the GPU may still use it.
     void abandon() const noexcept;
     [[nodiscard]] bool abandoned() const noexcept;
 
@@ -63,11 +63,11 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Something that the program can do without: vulkan::OptionalPart, or one of its own.
+/// An optional part of a device: vulkan::OptionalPart, or one of the program's own.
 struct GpuPart {
     std::string name;
     std::string serves;  // what it is for
-    std::string without; // what becomes of that where it is lacking
+    std::string without; // the consequence where it is lacking
     bool there = false;
 };
 
@@ -82,8 +82,8 @@ struct GpuReport {
     bool taken = false;               // by a Gpu of no name
     std::vector<GpuPart> parts;
 };
-/// All of them, in the drivers' order. Of `options` only what starting Vulkan needs is used. Throws Error when there is
-/// none.
+/// All devices, in the drivers' order. Uses only those `options` that starting Vulkan needs. Throws Error when there is
+/// no device.
 [[nodiscard]] std::vector<GpuReport> reportGpus(const GpuOptions& options);
 
 /// Has this process abandoned any device? Then it had better end by std::_Exit(): the driver's threads may be at work.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of a finished frame. Reading it back is one way; a window would be another.
+// The receivers of a finished frame: read-back is one, a window another.
 #pragma once
 
 #include "host/gpu.h"
@@ -15,25 +15,26 @@
 
 namespace gnomon::host {
 
-/// The images of a frame once all its passes are recorded. Their writes have to be waited for as `layout` says them to
-/// be read: by copies for the picture, by shaders for all others. They hold until the next frame is recorded.
+/// The images of a frame once all its passes are recorded. A reader must wait for their writes. By its `layout` the
+/// picture is read by copies, all others by shaders. They hold until the next frame is recorded.
 struct FinishedFrame {
     VkExtent2D drawn{};         // of all images but picture and glow: twice `shown` on each side with supersampling
     VkExtent2D shown{};         // of the picture
     vulkan::ImageRef picture;   // sRGB-encoded, RGBA8
-    vulkan::ImageRef light;     // radiance before the tone curve, RGBA16F; null where it went through the tone curve at
-                                // once (RenderOptions::keeps_light)
+    vulkan::ImageRef light;     // radiance before the tone curve, RGBA16F; null where shading applied the tone curve
+                                // (RenderOptions::keeps_light)
     vulkan::ImageRef glow;      // sum of the levels of bloom; null without it
     vulkan::ImageRef depth;     // reversed z
     vulkan::ImageRef normals;   // geometric, octahedral; null of a frame shaded forward
-    vulkan::ImageRef ids;       // object + 1 in the last channel, anything where nothing is drawn; likewise
+    vulkan::ImageRef ids;       // object + 1 in the last channel, anything where nothing is drawn; null of a frame
+                                // shaded forward
     vulkan::ImageRef masks;     // null where everything is lit
     bool compact_masks = false; // `masks` has RenderOptions::compact_mask
     std::size_t light_count = 0;
     const Plan* plan = nullptr; // says where in `masks` a light's is; null: light i has layer i / 4, channel i % 4
 };
 
-/// Told of a frame by FrameRenderer::submit().
+/// FrameRenderer::submit() calls it with each frame.
 class Present {
 public:
     virtual ~Present() = default;

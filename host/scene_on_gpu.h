@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene on the GPU: meshes, materials, textures and the pipelines that draw them. Uploaded once, whatever is drawn of
-// it afterwards.
+// A scene on the GPU: meshes, materials, textures and the pipelines that draw them. Uploaded once for all later frames.
 #pragma once
 
 #include "host/gpu.h"
@@ -18,8 +17,8 @@ struct SceneData;
 /// Shared by any number of FrameRenderers, which must not outlive it. Not thread-safe: they draw by turns.
 class SceneOnGpu {
 public:
-    /// Uploads the scene. `state` says which objects there are and where those are that never move. `gpu` and `scene`
-    /// outlive this. Throws Error (limits, memory, device).
+    /// Uploads the scene. `state` has the objects, and the places of those that never move. `gpu` and `scene` outlive
+    /// this. Throws Error (limits, memory, device).
     SceneOnGpu(Gpu& gpu, const scene::Scene& scene, const scene::State& state);
     ~SceneOnGpu();
     SceneOnGpu(const SceneOnGpu&) = delete;

@@ -12,7 +12,7 @@ namespace gnomon {
 
 /// 1 to 4 channels, 8 bit. Values are written as they are (pictures: sRGB-encoded already; tagged sRGB when 3 or 4).
 void writePng(const std::filesystem::path& file, const Image8& image);
-/// The bytes of that file, for whoever keeps pictures elsewhere than in files.
+/// The bytes of the file that writePng() writes, for pictures that are not kept in files.
 [[nodiscard]] std::string encodePng(const Image8& image);
 /// 16-bit, tagged linear (gAMA 1.0).
 void writePng(const std::filesystem::path& file, const Image16& image);

@@ -6,14 +6,15 @@
 
 namespace gnomon {
 
-/// Linear light of an encoded value. Both are 0 at 0 and 1 at 1; what is outside [0, 1] goes on along the same curve,
-/// below 0 along its straight part. NaN stays NaN.
+/// Linear light of an encoded value. Both are 0 at 0 and 1 at 1; values outside [0, 1] continue the same curve, below 0
+/// its straight part. NaN stays NaN.
 [[nodiscard]] inline double decodeSrgb(double encoded)
 {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-/// The other way: back to what it was within 1e-7, because the standard's two pieces do not quite meet.
+/// The encoded value of linear light. It inverts decodeSrgb() within 1e-7, because the standard's two pieces do not
+/// quite meet.
 [[nodiscard]] inline double encodeSrgb(double linear)
 {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Techniques against the truth: lab/score/score.h for what our host draws.
+// Techniques against the truth: lab/score/score.h for pictures of our host.
 #pragma once
 
 #include "lab/score/score.h"
@@ -30,7 +30,7 @@ namespace gnomon::lab {
 [[nodiscard]] Score scoreTechnique(const host::SceneOnGpu& scene, const Subject& subject, const truth::Traced& truth,
                                    const host::RenderOptions& options, bool with_perception = true,
                                    std::uint32_t frames = 1);
-/// The same for any mask of the truth's size, with the geometry of `picture`; what tells of maps stays 0.
+/// Scores any mask of the truth's size, with the geometry of `picture`; numbers about maps stay 0.
 [[nodiscard]] Score scoreMask(const Subject& subject, const truth::Traced& truth, const host::Picture& picture,
                               const ImageF& mask, bool with_perception = true);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What maps hold, as greys, with a legend that says what the greys are.
+// The values of maps as greys, with a legend for the greys.
 #pragma once
 
 #include "image/image.h"
@@ -13,12 +13,12 @@ namespace gnomon::lab {
 /// One map; ASCII, as all text here.
 struct MapPanel {
     std::string name; // shown above it where there are several
-    ImageF values;    // one channel; what is not finite is black
+    ImageF values;    // one channel; values that are not finite are black
 };
 struct MapLegend {
     std::string title;    // at most 43 letters
     std::string subtitle; // at most 50
-    std::string low;      // what the least value is, and the greatest
+    std::string low;      // texts for the least value, and the greatest
     std::string high;
     std::function<std::string(double)> text_of; // of a value, with its unit
 };
@@ -30,7 +30,7 @@ struct ValueRange {
 [[nodiscard]] ValueRange rangeOf(std::span<const MapPanel> panels);
 
 /// The panels beside each other, row by row in a square, all from black (the least value of any) to white (the
-/// greatest), with the legend below. A value alone is black. RGB. Precondition: one panel at least, none without a
+/// greatest), with the legend below. A single value is black. RGB. Precondition: one panel at least, none without a
 /// texel.
 [[nodiscard]] Image8 mapPicture(std::span<const MapPanel> panels, const MapLegend& legend);
 

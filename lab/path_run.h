@@ -15,7 +15,7 @@
 
 namespace gnomon::lab {
 
-/// What one frame looked like, for pictures.
+/// The mask and the classes of one frame, for pictures.
 struct ShownFrame {
     ImageF mask;
     Counted counted;
@@ -34,8 +34,8 @@ struct PathTechnique {
     std::vector<ShownFrame> shown;           // of the frames that were to be shown
 };
 
-/// Contestants that walk a path together. Each has one renderer from the first frame to the last, so that maps that
-/// hold are kept and motions remember; of masks and truths two frames are held at a time.
+/// Contestants that walk a path together. Each has one renderer from the first frame to the last, so that valid maps
+/// are kept and motions remember. Masks and truths of two frames are held at a time.
 class PathRun {
 public:
     /// `first` as in add(). Pictures are of `size_px`, without anti-aliasing whatever options say. Throws Error.
@@ -45,24 +45,25 @@ public:
     PathRun& operator=(const PathRun&) = delete;
 
     /// The next frame: one light (`subject.lights` holds the judged one alone), any time and camera of the same scene.
-    /// Everyone draws, the frame without shadows too, in turnsOf(); then their masks are held against `truth`, of the
-    /// run's size. `show`: keep pictures of it. `step` is called after each technique and may throw to stop.
+    /// All draw in the order of turnsOf(), the frame without shadows too; then their masks are compared with `truth`,
+    /// which has the run's size. `show`: keep pictures of it. `step` is called after each technique and may throw to
+    /// stop.
     void add(const Subject& subject, truth::Traced truth, bool show, const std::function<void()>& step);
 
-    /// The frame added last once more, from where the next one is seen: its own moment, `subject` with another eye
-    /// alone, and the truth of that. To be called before add() where the camera moves, so that what changes at a point
-    /// of the world is known at that point and not from pixels around it. Nothing comes of it for techniques that
-    /// cannot be drawn again (host::FrameRenderer::drawAgain()).
+    /// Draws the frame added last again, from the next frame's camera: `subject` differs by its eye alone, `truth` is
+    /// of that. To be called before add() where the camera moves, so that changes are measured at a point of the world
+    /// and not in pixels around it. No effect on techniques that cannot be drawn again
+    /// (host::FrameRenderer::drawAgain()).
     void revisit(const Subject& subject, const truth::Traced& truth);
 
-    /// Noise of the truths: the root of the mean over the frames of its square; nothing when in none a pixel counts.
+    /// Noise of the truths: the root of the mean square over the frames; nothing when no frame has a counted pixel.
     [[nodiscard]] std::optional<double> noise() const;
     struct Result {
         std::vector<PathTechnique> techniques; // in the contestants' order
         Timed baseline;                        // without shadows
         std::uint64_t baseline_bytes = 0;
     };
-    /// Ends the run. `last`: the frame added last, as it still is. Precondition: a frame was added.
+    /// Ends the run. `last` is the frame added last, unchanged. Precondition: a frame was added.
     [[nodiscard]] Result finish(const Subject& last);
 
 private:

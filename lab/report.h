@@ -15,13 +15,14 @@ namespace gnomon::lab {
 /// with any of the usual colour deficiencies can read; left-out pixels dark grey, NaN magenta. The scale is the square
 /// root of |test - truth|, so that an error of 0.01 is seen too.
 ///
-/// This picture and the next two are RGB and get a legend below them: they are higher than what they show, and at
-/// least 320 px wide. What is smaller than 320 px is shown larger by the whole factor that fits, and padded on both
-/// sides with the legend's dark grey. Precondition: one size, one channel each.
+/// This picture and the next two are RGB and get a legend below them: they are higher than what they show, and at least
+/// 320 px wide. Images smaller than 320 px are enlarged by the whole factor that fits, and padded on both sides with
+/// the legend's dark grey. Precondition: one size, one channel each.
 [[nodiscard]] Image8 errorPicture(const ImageF& test, const ImageF& truth, const Counted& counted);
-/// The same without a legend and of the masks' own size, for pages that have legends of their own. So the next two.
+/// errorPicture() without a legend and of the masks' size, for pages with legends of their own. classPixels() and
+/// densityPixels() are alike.
 [[nodiscard]] Image8 errorPixels(const ImageF& test, const ImageF& truth, const Counted& counted);
-/// The colour of an error from -1 to 1 in both: red, green, blue, sRGB-encoded.
+/// The colour of an error from -1 to 1 in errorPicture() and errorPixels(): red, green, blue, sRGB-encoded.
 [[nodiscard]] std::array<std::uint8_t, 3> errorRgb(double error);
 
 /// The colour-blind-safe colour of a class in pictures and plots: red, green, blue, sRGB-encoded.
@@ -36,7 +37,7 @@ namespace gnomon::lab {
 /// passes through 1), with a legend; 0 (left out) dark grey, NaN magenta.
 [[nodiscard]] Image8 densityPicture(const ImageF& texels_per_pixel);
 [[nodiscard]] Image8 densityPixels(const ImageF& texels_per_pixel);
-/// The colour of so many texels per pixel in both, as errorRgb().
+/// The colour of a density in densityPicture() and densityPixels(): red, green, blue, sRGB-encoded.
 [[nodiscard]] std::array<std::uint8_t, 3> densityRgb(double texels_per_pixel);
 
 /// How many lights reach each pixel, from 1 to 32 on a logarithmic scale in the same colours; dark grey where none

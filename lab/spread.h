@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What repeated times come to.
+// The median and the spread of repeated times.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ struct Spread {
 };
 /// Quartiles by linear interpolation between order statistics (Hyndman & Fan 1996, type 7). Empty: zeros.
 [[nodiscard]] Spread spreadOf(std::vector<double> values);
-/// The same of values that may be missing: nothing as soon as one is.
+/// spreadOf() of values that may be missing: nothing when any is.
 [[nodiscard]] std::optional<Spread> spreadOfMeasured(const std::vector<std::optional<double>>& values);
 
 } // namespace gnomon::lab

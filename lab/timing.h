@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times of techniques that take turns in one process, so that whatever slows the machine down hits all alike.
+// Times of techniques that take turns in one process, so that anything that slows the machine down hits all alike.
 #pragma once
 
 #include "host/frame_renderer.h"
@@ -21,8 +21,7 @@
 
 namespace gnomon::lab {
 
-/// What is looked at: one frame of a scene. `scene` and `state` outlive it. Where it is drawn, the SceneOnGpu beside it
-/// is of the same scene.
+/// One frame of a scene. `scene` and `state` outlive it. A SceneOnGpu that draws it is of the same scene.
 struct Subject {
     const scene::Scene* scene = nullptr;
     const scene::State* state = nullptr;
@@ -59,7 +58,7 @@ struct Counters {
     std::uint64_t draws = 0;
     std::uint64_t passes = 0;
     std::uint64_t bytes_minimum = 0; // leastBytes() of lab/score/traffic.h; 0 without shadows
-    vulkan::FilterCost filter;       // of the blur; what countersOf() cannot know
+    vulkan::FilterCost filter;       // of the blur; countersOf() leaves it at zeros
 };
 [[nodiscard]] Counters countersOf(const host::FrameTimes& times, const Plan& plan, bool redraws_all);
 
@@ -69,11 +68,11 @@ struct TimingOptions {
     bool reuse_maps = false; // false: every map is drawn anew every frame; true: as each contestant's options say
 };
 
-/// What was kept of one technique's frames.
+/// The results of one technique's frames.
 struct Timed {
     std::vector<host::FrameTimes> samples;
     Counters counters; // of the last frame
-    LeastByPass least; // likewise
+    LeastByPass least; // of the last frame
     Plan plan;         // of the last frame; without shadows: empty
     MapPages atlas;
     std::vector<std::pair<std::string, std::uint64_t>> added_memory; // beyond the frame without shadows, by purpose
@@ -87,13 +86,12 @@ struct TimingResult {
     std::uint64_t baseline_bytes = 0;
 };
 
-/// Whose turn it is, of `count` who draw once in each round: the places 0 .. count - 1 in order, and in every other
-/// round backwards.
+/// The order in which `count` draw once in a round: 0 .. count - 1, and backwards in every other round.
 [[nodiscard]] std::vector<std::size_t> turnsOf(std::uint32_t round, std::size_t count);
 
 /// The most contestants that take turns together, and the most texels of maps that they may have among them (unless one
-/// alone has more): their images are all in memory at once. Texels of four bytes: a texel of a filterable map counts
-/// for as many as it takes, with the images that it is made from. A depth map of 16384 and one of 8192 on a side fit
+/// alone has more): their images are all in memory at once. A texel counts four bytes, so one of a filterable map
+/// counts as several, with the images that it is made from. A depth map of 16384 and one of 8192 on a side fit
 /// together.
 inline constexpr std::size_t kMaxTogether = 8;
 inline constexpr std::uint64_t kMaxTexelsTogether = std::uint64_t{1} << 29U;
@@ -103,17 +101,17 @@ inline constexpr std::uint64_t kMaxTexelsTogether = std::uint64_t{1} << 29U;
 
 /// Bytes of every image and buffer of a renderer.
 [[nodiscard]] std::uint64_t totalBytes(const host::FrameRenderer& renderer);
-/// What one technique needs beyond the frame without shadows, by purpose.
+/// The memory that one technique needs beyond the frame without shadows, by purpose.
 [[nodiscard]] std::vector<std::pair<std::string, std::uint64_t>> addedMemory(const host::FrameRenderer& technique,
                                                                              const host::FrameRenderer& baseline);
-/// Of the whole frame, ms; 0 without samples.
+/// The median of the whole frame, ms; 0 without samples.
 [[nodiscard]] double medianFrame(const Timed& timed);
 
 /// Takes the frame of the last sample into Timed::mean_texels_rendered.
 void addTexels(Timed& timed, const Counters& frame);
 
-/// What is drawn in a round, counted from 0, warming up included. Asked for in order, once for each round of a group;
-/// holds until the next is asked for. Rounds differ in time, camera and lights only, not in how many lights there are.
+/// The subject of a round, counted from 0, warm-up included. Called in order, once for each round of a group; a result
+/// holds until the next call. Rounds differ in time, camera and lights only, not in the number of lights.
 using SubjectAt = std::function<const Subject&(std::uint32_t round)>;
 
 /// Draws every contestant of a group and the frame without shadows (the first contestant's options otherwise) once in
@@ -123,7 +121,7 @@ using SubjectAt = std::function<const Subject&(std::uint32_t round)>;
 [[nodiscard]] TimingResult timeInTurn(const host::SceneOnGpu& scene, const Subject& subject,
                                       const std::vector<Contestant>& contestants, const TimingOptions& options,
                                       const std::function<void()>& step);
-/// The same with something else to draw in each round: frames of a path. Every group begins with round 0.
+/// Draws another subject in each round: frames of a path. Every group begins with round 0.
 [[nodiscard]] TimingResult timeInTurn(const host::SceneOnGpu& scene, const SubjectAt& subject_at,
                                       const std::vector<Contestant>& contestants, const TimingOptions& options,
                                       const std::function<void()>& step);

@@ -24,9 +24,9 @@ struct TintLegend {
 /// one size, one channel of kinds, none beyond legend.kinds.
 [[nodiscard]] Image8 tintedPicture(const Image8& picture, const ImageOf<std::uint8_t>& kinds, const TintLegend& legend);
 
-/// The same where a pixel may be of several kinds at once: channel k - 1 of `shares`, which add up to at most 1, says
-/// how much it is of kind k. Colours are mixed as light; what is missing to 1 is grey. As many channels as
-/// legend.kinds, or more, which are grey too.
+/// tintedPicture() where a pixel may be of several kinds at once: channel k - 1 of `shares`, which add up to at most 1,
+/// is its share of kind k. Colours are mixed as light; the rest to 1 is grey. It has as many channels as legend.kinds,
+/// or more, which are grey too.
 [[nodiscard]] Image8 tintedPicture(const Image8& picture, const ImageF& shares, const TintLegend& legend);
 
 } // namespace gnomon::lab

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lab/score/traffic.h for what our host draws.
+// lab/score/traffic.h for pictures of our host.
 #pragma once
 
 #include "lab/score/traffic.h"
@@ -9,8 +9,8 @@
 
 namespace gnomon::lab {
 
-/// What the last frame that `renderer`, made with `options`, has drawn of the subject shows: depths and normals.
-/// Reading them back makes the renderer's memory grow. Where it keeps none, a frame without shadows is drawn for them.
+/// Depths and normals of the last frame of the subject that `renderer`, made with `options`, has drawn. Reading them
+/// back makes the renderer's memory grow. Where it keeps none, this draws a frame without shadows for them.
 [[nodiscard]] host::Picture geometryOf(const host::SceneOnGpu& scene, host::FrameRenderer& renderer,
                                        const Subject& subject, host::RenderOptions options);
 /// leastBytes() of that frame, which shows `geometry`; 0 without shadows.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which triangles of a mesh meet along which edges, whether there is an edge where none meets another, and so whether
-// the mesh has an inside.
+// The triangles that meet along each edge of a mesh, its open edges, and so whether the mesh has an inside.
 #pragma once
 
 #include "scene/model.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What clip planes leave of polygons and boxes.
+// Polygons and boxes cut by clip planes.
 #pragma once
 
 #include "scene/model.h"
@@ -9,7 +9,7 @@
 
 namespace gnomon::scene {
 
-/// Convex. With four corners at first there is room for what both planes add.
+/// Convex. With four corners at first it has room for those that both planes add.
 struct Polygon {
     std::array<glm::dvec3, 6> corners{};
     std::size_t count = 0;
@@ -17,10 +17,10 @@ struct Polygon {
     void add(const glm::dvec3& corner) { corners[count++] = corner; }
 };
 
-/// What `planes` leave of a polygon of at most four corners; empty where that is nothing.
+/// The part of a polygon of at most four corners that `planes` leave; empty where nothing is left.
 [[nodiscard]] Polygon clipped(const Polygon& polygon, const ClipPlanes& planes);
-/// The smallest box around what they leave of `box`; empty where that is nothing. A box that is not finite comes back
-/// as it is.
+/// The smallest box around the part of `box` that they leave; empty where nothing is left. A box that is not finite is
+/// returned unchanged.
 [[nodiscard]] Aabb clipped(const Aabb& box, const ClipPlanes& planes);
 
 } // namespace gnomon::scene

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells scenes apart, in result files and in the cache of truths.
+// A hash that tells scenes apart, in result files and in the cache of truths.
 #pragma once
 
 #include "scene/model.h"
@@ -58,13 +58,13 @@ private:
     void* state_; // XXH3_state_t
 };
 
-/// Of everything in a scene that a picture, a mask or a truth of it can depend on: geometry, places, materials,
-/// textures, images, skins, animations, lights, cameras, environment. Not of names; not of notices. A procedural
-/// world's animators cannot be hashed: see stateHash().
+/// The hash of all in a scene that a picture, a mask or a truth can depend on: geometry, places, materials, textures,
+/// images, skins, animations, lights, cameras, environment. Names and notices are left out. A procedural world's
+/// animators cannot be hashed: see stateHash().
 [[nodiscard]] Hash128 sceneHash(const Scene& scene);
 
-/// Of what a state adds to its scene for a mask or a truth: where objects and lights are now, deformed vertices, flags.
-/// Not of how bright lights and sky are.
+/// The hash of all that a state adds to its scene for a mask or a truth: the places of objects and lights, deformed
+/// vertices, flags. The brightness of lights and sky is left out.
 [[nodiscard]] Hash128 stateHash(const State& state);
 
 } // namespace gnomon::scene

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How every JSON from outside is read: glTF files, presets (results among them) and paths. The library's own tree
+// The reader of all JSON from outside: glTF files, presets (results among them) and paths. The JSON library's own tree
 // builder accepts duplicate keys, keeps no pointer for its errors and knows no depth; this one is driven by the same
-// parser's events. What comes after (copying, printing, destroying) may recurse as deep as the tree, so the depth is
-// limited here, once.
+// parser's events. Later steps (copying, printing, destroying) may recurse as deep as the tree, so the depth is limited
+// here, once.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -25,19 +25,19 @@ inline constexpr std::size_t kMaxJsonDepth = 128;
 /// `key` as one step of a JSON pointer (RFC 6901).
 [[nodiscard]] std::string escapeKey(std::string_view key);
 
-/// Whose file it is: says what is wrong with it, and counts what reading takes.
+/// The owner of a text: reports errors in it, and counts the memory that reading takes.
 class JsonOwner {
 public:
     virtual ~JsonOwner() = default;
     /// Throws. `pointer` is empty for the whole text; `found` and `todo` may be empty.
     [[noreturn]] virtual void fail(const std::string& pointer, const std::string& what, const std::string& found,
                                    const std::string& todo) const = 0;
-    /// Memory that is about to be taken; may throw.
+    /// Counts memory before it is taken; may throw.
     virtual void charge(std::uint64_t /*bytes*/) {}
 };
 
-/// Leaves an array or object empty, from its leaves on, which takes no memory. nlohmann's own destructor asks for some
-/// to hold what is in it, and where there is none it ends the program. `value` is nested kMaxJsonDepth levels at most.
+/// Leaves an array or object empty, from its leaves on, which takes no memory. nlohmann's own destructor allocates
+/// memory for the contents, and without any it ends the program. `value` is nested kMaxJsonDepth levels at most.
 template <typename Json>
 void takeApart(Json& value) noexcept
 {
@@ -56,7 +56,7 @@ void takeApart(Json& value) noexcept
     }
 }
 
-/// What was read, which can be destroyed without memory.
+/// A tree that was read, which can be destroyed without memory.
 template <typename Json>
 class JsonTree {
 public:
@@ -73,10 +73,10 @@ private:
 
 namespace detail {
 
-/// What one value costs in memory at least, with its place in a map; keeps a 1 GB file of "[0,0,0,..." within bounds.
+/// The least memory of one value, with its place in a map; keeps a 1 GB file of "[0,0,0,..." within bounds.
 inline constexpr std::uint64_t kBytesPerJsonValue = 32;
 
-/// The parser's sentence without its "[json.exception...] ", on one line and short: it quotes what was read last.
+/// The parser's sentence without its "[json.exception...] ", on one line and short, since it quotes the text.
 [[nodiscard]] std::string shortReason(std::string_view text);
 
 template <typename Json>
@@ -137,7 +137,7 @@ public:
     [[nodiscard]] JsonTree<Json> take() { return JsonTree<Json>(std::move(root_)); }
 
 private:
-    /// Where the value that comes next will be.
+    /// The place of the next value.
     [[nodiscard]] std::string nextPointer() const { return stack_.empty() ? "" : pointer() + "/" + nextStep(); }
 
     [[nodiscard]] std::string nextStep() const
@@ -146,7 +146,7 @@ private:
         return top.is_array() ? std::to_string(top.size()) : escapeKey(key_);
     }
 
-    /// Where the container being filled is.
+    /// The place of the container being filled.
     [[nodiscard]] std::string pointer() const
     {
         std::string text;
@@ -177,8 +177,8 @@ private:
         }
     }
 
-    /// For one more member. An ordered object that grows by itself copies all members and destroys the old ones, which
-    /// takes memory where none may be had: see takeApart().
+    /// Makes room for one more member. An ordered object that grows by itself copies all members and destroys the old
+    /// ones, which takes memory when there may be none: see takeApart().
     static void makeRoom(typename Json::object_t& object)
     {
         if (object.size() < object.capacity()) {

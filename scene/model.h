@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene model: what a file or a built-in world holds, as plain data. Right-handed, +y up, metres, radians,
-// linear colour, as glTF 2.0 has it. Indices are into the vectors of `Scene`; `kNone` says "none".
+// The scene model: the content of a file or a built-in world, as plain data. Right-handed, +y up, metres, radians,
+// linear colour, as in glTF 2.0. Indices are into the vectors of `Scene`; `kNone` is "none".
 #pragma once
 
 #include <gnomon/geometry.h>
@@ -22,8 +22,8 @@ namespace gnomon::scene {
 
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-/// 8-bit RGBA, rows from the top, width * height * 4 bytes. Colour images hold sRGB-encoded values; whoever uses
-/// one knows by its role (base colour and emissive are colour; normal, metallic-roughness, occlusion are data).
+/// 8-bit RGBA, rows from the top, width * height * 4 bytes. Colour images hold sRGB-encoded values; an image's use
+/// tells which it is (base colour and emissive are colour; normal, metallic-roughness, occlusion are data).
 struct Image {
     std::string name;
     std::uint32_t width = 0;
@@ -53,8 +53,8 @@ struct TextureUse {
 };
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
-/// `horizon`: metallic-roughness, and where the alpha of an opaque surface falls below 1 it takes on the colour of the
-/// sky behind it. So a ground ends without an edge. It is there all the same, in every mask.
+/// `horizon`: metallic-roughness, and where the alpha of an opaque surface is below 1 it takes on the colour of the sky
+/// behind it, so that a ground ends without an edge. Every mask has the surface all the same.
 enum class ShadingModel : std::uint8_t { metallic_roughness, phong, unlit, horizon };
 
 struct Material {
@@ -66,11 +66,11 @@ struct Material {
     glm::vec4 base_colour{1.0F}; // linear, alpha is coverage
     float metallic = 1.0F;
     float roughness = 1.0F;
-    /// Blended: light that goes through is coloured, 1 - alpha (1 - colour) of it goes on; else 1 - alpha does.
+    /// Blended: the surface colours light and lets 1 - alpha (1 - colour) of it through; else 1 - alpha.
     bool stained = false;
     float phong_exponent = 8.0F; // for ShadingModel::phong only
-    /// Of opaque materials: windows that are lit when it is dark outside, by a physical sky. How brightly; where the
-    /// vertex colours' alpha is 0, not at all where it is 1.
+    /// Opaque materials: the brightness of windows that are lit when a physical sky is dark. In full where the vertex
+    /// colours' alpha is 0, not at all where it is 1.
     float lit_by_night = 0.0F;
     glm::vec3 emissive{0.0F}; // linear, KHR_materials_emissive_strength multiplied in
     float normal_scale = 1.0F;
@@ -108,11 +108,11 @@ struct Primitive {
     std::vector<MorphTarget> morph_targets;
     std::uint32_t material = kNone; // kNone: the default material
     Aabb bounds;                    // of the undeformed positions, from `origin`
-    /// In the mesh's space. Not 0 where all of it lies far from there: single precision keeps its shape near 0. Made by
-    /// finishScene(); 0 of what a skin deforms.
+    /// In the mesh's space. Not 0 where the whole primitive lies far from that space's origin, so that single precision
+    /// keeps its shape. Made by finishScene(); 0 where a skin deforms it.
     glm::vec3 origin{0.0F};
-    /// 1 at a vertex whose normal leans away from one of its triangles' by more than kCreaseAngle_rad: it rounds off an
-    /// edge that is there, or is none of the surface's own, as of foliage. Made by finishScene().
+    /// 1 at a vertex whose normal leans away from one of its triangles' by more than kCreaseAngle_rad: it rounds off a
+    /// real edge, or is not the surface's own, as with foliage. Made by finishScene().
     std::vector<std::uint8_t> creased;
 };
 
@@ -132,8 +132,8 @@ struct Transform {
     [[nodiscard]] glm::mat4 matrix() const;
 };
 
-/// What cuts an object: where dot(plane.xyz, p) + plane.w < 0 for either plane, p in the space of its vertices, it is
-/// not there. It is not seen there, casts nothing and receives nothing. Normals are unit length.
+/// The planes that cut an object: where dot(plane.xyz, p) + plane.w < 0 for either plane, with p in the space of its
+/// vertices, the object is neither seen, nor casts, nor receives. Normals are unit length.
 using ClipPlanes = std::array<glm::vec4, 2>;
 inline constexpr glm::vec4 kNoClipPlane{0.0F, 0.0F, 0.0F, 1.0F}; // cuts nothing
 inline constexpr ClipPlanes kNoClipPlanes{kNoClipPlane, kNoClipPlane};
@@ -153,9 +153,9 @@ struct Node {
     bool casts = true;                // per-object flags of the shadow system
     bool receives = true;
     std::uint32_t groups = 1; // of casters, a bit each, that its mesh is in; 0: it must not cast, whatever draws maps
-    float bias_m = 0.0F;      // in maps its mesh is so much farther from lights than it is, metres; finite
-    /// Of the node's mesh, or of each of its instances, in their own space; of a skinned mesh in the world's, where its
-    /// vertices are. Children have their own. Nothing animates them.
+    float bias_m = 0.0F;      // maps have its mesh this much farther from lights, metres; finite
+    /// The planes of the node's mesh, or of each of its instances, in their own space; for a skinned mesh in world
+    /// space, where its vertices are. Children have their own. Nothing animates them.
     ClipPlanes clip_planes = kNoClipPlanes;
     bool dynamic = false; // hint: moves by a procedural animator or an animation channel (filled by finishScene)
 };
@@ -192,14 +192,14 @@ struct Camera {
     float fov_y_rad = 0.8F;
     float half_height_m = 1.0F; // orthographic only
     float near_m = 0.1F;
-    float far_m = 0.0F; // 0: infinite; whoever renders picks one from the scene's bounds
+    float far_m = 0.0F; // 0: infinite; renderers pick one from the scene's bounds
 };
 
 enum class LightType : std::uint8_t { directional, spot, point };
 
-/// What a directional light stands for where the sky is a physical one. `sun` and `moon` have the colour and strength
-/// that the air leaves them at their height; Light::colour is what they give from above, of the moon the hue alone.
-/// `none`: it keeps both, as lights of files do.
+/// The body of a directional light under a physical sky. `sun` and `moon` have the colour and strength that the air
+/// leaves them at their height; Light::colour is their light from above, for the moon the hue alone. `none`: it keeps
+/// colour and strength, as lights of files do.
 enum class Body : std::uint8_t { none, sun, moon };
 
 /// KHR_lights_punctual, shining down the node's -z, with what shadows need besides.
@@ -226,7 +226,7 @@ struct Environment {
     glm::vec3 ground{0.22F, 0.20F, 0.17F};
     float ambient = 0.35F; // multiplies the hemisphere light
     float exposure = 1.0F;
-    glm::vec3 ground_albedo{0.22F, 0.20F, 0.17F}; // under a physical sky, which has no use for the others
+    glm::vec3 ground_albedo{0.22F, 0.20F, 0.17F}; // under a physical sky, which ignores the others
 };
 
 /// A view by name: a camera that is not part of the node tree (built-in worlds).
@@ -258,7 +258,7 @@ struct Scene {
     /// share of Light::colour * intensity. `environment` is Scene::environment when it is called. Null where neither
     /// changes.
     std::function<void(double time_s, std::span<glm::vec3> strengths, Environment& environment)> daylight;
-    std::vector<std::string> notices; // what was read but has no effect, a sentence each
+    std::vector<std::string> notices; // things that were read and have no effect, a sentence each
 };
 
 } // namespace gnomon::scene

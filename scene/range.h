@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Is a scene of a size, and at a place, that shadows can be computed of?
+// Checks that a scene's size and place allow shadows to be computed.
 #pragma once
 
 #include "scene/state.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene at one moment: where every object is and what deformed geometry looks like. The one place that evaluates
-// animation, skins and morph targets; the rasteriser and the ray tracer both draw what this says.
+// A scene at one moment: the places of all objects, and deformed geometry. Only this evaluates animation, skins and
+// morph targets; the rasteriser and the ray tracer both draw its result.
 #pragma once
 
 #include "scene/model.h"
@@ -26,7 +26,7 @@ struct Object {
     bool dynamic = false;                   // may move or deform over time
     ClipPlanes clip_planes = kNoClipPlanes; // in the space of its vertices
     glm::mat4 world_from_object{1.0F};      // identity for skinned objects: their vertices are in world space
-    Aabb bounds_ws;                         // of what the planes leave; empty where they leave nothing
+    Aabb bounds_ws;                         // of the part that the planes leave; empty where they leave nothing
 };
 
 /// Vertices of a skinned or morphed primitive now, as long as the primitive's positions. Skinned: world space.
@@ -43,7 +43,7 @@ struct PlacedLight {
     glm::vec3 position_ws{0.0F};
     glm::vec3 direction_ws{0.0F, -1.0F, 0.0F}; // unit, the way the light travels
     glm::vec3 up_ws{0.0F, 0.0F, 1.0F};         // unit, perpendicular to direction: orients a cookie
-    glm::vec3 strength{1.0F}; // >= 0: what it gives now, as a share of the light's colour * intensity; 0: it is out
+    glm::vec3 strength{1.0F}; // >= 0: the present share of the light's colour * intensity; 0: it is out
 };
 
 struct PlacedCamera {
@@ -64,7 +64,7 @@ struct State {
     Environment environment; // sky and ambient now
     Aabb bounds_ws;          // of all objects
 
-    // What `advance` visits, in ascending order, and room to work in; made by `evaluate`.
+    // Indices that `advance` visits, ascending, and its working memory; made by `evaluate`.
     std::vector<std::uint32_t> dynamic_nodes;
     std::vector<std::uint32_t> dynamic_objects;
     std::vector<std::uint32_t> light_and_camera_nodes;
@@ -81,9 +81,8 @@ struct State {
 /// warm; static objects are not touched.
 void advance(const Scene& scene, double time_s, State& state, const std::string& animation = {});
 
-/// Fills what can be derived: primitive bounds, normals that are missing or of length 0, tangents where a normal map
-/// needs them, Node::dynamic. Readers and world makers call it last. Throws Error when a parent does not precede its
-/// child.
+/// Fills derived data: primitive bounds, normals that are missing or of length 0, tangents where a normal map needs
+/// them, Node::dynamic. Readers and world makers call it last. Throws Error when a parent does not precede its child.
 void finishScene(Scene& scene);
 
 } // namespace gnomon::scene

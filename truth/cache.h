@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Truth on disk, by a hash of everything that it depends on. Safe against runs beside each other, torn files and full
-// disks: an entry is either whole and right, or it is not there.
+// Truth on disk, by a hash of all that it depends on. Safe against concurrent runs, torn files and full disks: an entry
+// is either whole and right, or it is not there.
 #pragma once
 
 #include "scene/hash.h"
@@ -13,7 +13,7 @@
 
 namespace gnomon::truth {
 
-/// What one trace gave: all that a comparison needs of the truth.
+/// The result of one trace: all that a comparison needs of the truth.
 struct Traced {
     Surfaces surfaces;
     Visibility visibility;
@@ -23,8 +23,8 @@ struct Traced {
 /// that old truths are traced anew.
 inline constexpr std::uint32_t kTracerVersion = 4;
 
-/// Of scene, state, view, light, kind, samples, seed, the tracer's own version, and Embree's and the instructions that
-/// it uses here; not of threads or callbacks. Throws Error when Embree does not start.
+/// The key of scene, state, view, light, kind, samples, seed, the tracer's own version, and Embree's version and the
+/// instructions that it uses here. Threads and callbacks do not count. Throws Error when Embree does not start.
 [[nodiscard]] scene::Hash128 keyOf(const scene::Scene& scene, const scene::State& state, const View& view,
                                    const Light& light, const Options& options);
 
@@ -34,18 +34,18 @@ public:
     /// variable names an absolute path.
     [[nodiscard]] static std::optional<std::filesystem::path> defaultFolder();
 
-    /// Makes nothing until the first store. `max_bytes`: what all entries together may take; the least recently used
-    /// go first. Of the folder's files only those are ever removed that bear an entry's name, or its temporary one.
+    /// Makes nothing until the first store. `max_bytes`: the most that all entries may take together; the least
+    /// recently used go first. Only files with an entry's name or temporary name are ever removed from the folder.
     explicit Cache(std::filesystem::path folder, std::uint64_t max_bytes = 4ULL << 30);
 
     /// The truth of `key`, which is of `kind` and whose images are of `size_px`. Nothing when there is no entry, or one
     /// that is torn, of another version, kind or size, or with a value that no truth has: not a number, a visibility
     /// outside [0, 1], a point or normal that is not finite, a negative error or distance (it is then removed). Object
-    /// and triangle numbers are not looked at: the key says which scene they are of. Never throws.
+    /// and triangle numbers are not checked: the key says which scene they are of. Never throws.
     [[nodiscard]] std::optional<Traced> load(const scene::Hash128& key, const glm::uvec2& size_px, Kind kind) const;
-    /// Returns false, with a sentence in `why` if given, when the entry could not be written; then nothing is left
-    /// behind, but for the folder. Images must be all of one size, up to 16384 a side, and their values such as load()
-    /// gives back. Never throws.
+    /// Returns false, with a sentence in `why` if given, when the entry could not be written; then only the folder may
+    /// be left behind. Images must be all of one size, up to 16384 a side, with values that load() accepts. Never
+    /// throws.
     bool store(const scene::Hash128& key, const Traced& traced, std::string* why = nullptr) const;
 
 private:

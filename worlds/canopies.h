@@ -35,7 +35,7 @@ struct CanopiesWorld {
     /// The way sunlight travels, before normalisation: a point at height h throws its shadow 0.02 h along +x and 0.12 h
     /// along +z.
     static constexpr glm::vec3 sun_direction{0.02F, -1.0F, 0.12F};
-    /// How much farther the sun's disc, 0.53 degrees wide, carries that, in x or z at most: 0.005 h.
+    /// The most, in x or z, that the sun's disc, 0.53 degrees wide, adds to a shadow's offset: 0.005 h.
     static constexpr float sun_spread = 0.005F;
     static constexpr glm::vec3 spot_position{1.0F, 30.0F, 2.0F};
     static constexpr glm::vec3 spot_target{-0.5F, 0.0F, 0.0F};
@@ -45,14 +45,14 @@ struct CanopiesWorld {
         const float x = 2.0F * static_cast<float>(i) - 5.6F;
         return {{x, 18.0F, -5.0F}, {x + 1.2F, 18.15F, 5.0F}};
     }
-    /// Points of the ground to which `roof` alone lets nothing of the sun.
+    /// The points of the ground that `roof` alone shades fully.
     [[nodiscard]] static constexpr Rectangle umbraOf(const Box& roof)
     {
         const float h = roof.min.y;
         return {roof.min.x + (sun_direction.x + sun_spread) * h, roof.min.z + (sun_direction.z + sun_spread) * h,
                 roof.max.x + (sun_direction.x - sun_spread) * h, roof.max.z + (sun_direction.z - sun_spread) * h};
     }
-    /// Outside, `roof` takes nothing of the sun from the ground.
+    /// The points of the ground outside which `roof` shades nothing.
     [[nodiscard]] static constexpr Rectangle reachOf(const Box& roof)
     {
         return {roof.min.x + (sun_direction.x - sun_spread) * roof.min.y,
@@ -60,7 +60,7 @@ struct CanopiesWorld {
                 roof.max.x + (sun_direction.x + sun_spread) * roof.max.y,
                 roof.max.z + (sun_direction.z + sun_spread) * roof.max.y};
     }
-    /// How far from the light a point is, metres along the sun's direction, from the plane through the origin.
+    /// The depth of a point under the sun: metres along the sun's direction from the plane through the origin.
     [[nodiscard]] static constexpr float depthOf(const glm::vec3& point)
     {
         constexpr float kLength = 1.0073728F; // of sun_direction

@@ -7,7 +7,8 @@
 namespace gnomon::worlds {
 
 /// Exact geometry of the world `planes`: an axis-aligned box that floats over the plane y = ground_y, a sun (the first
-/// light, named "sun") and a spot light ("spot"). Both are drawn from here, so tests can compute where an edge lies.
+/// light, named "sun") and a spot light ("spot"). The world is made from these numbers, so tests can compute where an
+/// edge lies.
 struct PlanesWorld {
     static constexpr float ground_y = 0.0F;
     static constexpr float ground_half_size_m = 20.0F; // the ground spans [-20, 20] in x and z

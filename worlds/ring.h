@@ -26,12 +26,12 @@ struct RingWorld {
     static constexpr int sectors = tiles_around / sector_tiles;
     static constexpr double promenade_m = 3.0; // from the middle to the rooms
 
-    /// About the axis, from straight below it; [-pi, pi).
+    /// The angle about the axis, from straight below it; [-pi, pi).
     [[nodiscard]] static double angleOf(double tiles);
     [[nodiscard]] static glm::vec3 place(double tiles, double height_m, double across_m);
-    /// Towards the axis, unit.
+    /// The direction towards the axis, unit.
     [[nodiscard]] static glm::vec3 up(double tiles);
-    /// Along the ring, unit.
+    /// The direction along the ring, unit.
     [[nodiscard]] static glm::vec3 along(double tiles);
 };
 

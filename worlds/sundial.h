@@ -22,7 +22,7 @@ struct SundialWorld {
     static constexpr double start_hour = 8.0; // on the clock at time 0
     static constexpr float sun_angular_diameter_rad = 0.00925025F;
     static constexpr float moon_angular_diameter_rad = 0.00907571F; // 0.52 degrees
-    /// Sun and moon give nothing up to the first of these heights, all they have from the second on. In between they
+    /// Sun and moon give no light up to the first of these heights, and all of it from the second on. In between they
     /// fade, so that no light grazes the ground.
     static constexpr double fade_from_rad = 0.0349065850; // 2 degrees
     static constexpr double fade_to_rad = 0.1221730476;   // 7 degrees
@@ -34,7 +34,7 @@ struct SundialWorld {
     /// The way the light travels, unit; upwards while its source is below the horizon.
     [[nodiscard]] static glm::dvec3 sunDirection(double time_s);
     [[nodiscard]] static glm::dvec3 moonDirection(double time_s);
-    /// [0, 1]: of what the light gives at most.
+    /// The share of the light's full strength, [0, 1].
     [[nodiscard]] static double sunStrength(double time_s);
     [[nodiscard]] static double moonStrength(double time_s);
     /// Clock hours at which the sun's centre crosses the horizon.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The built-in worlds by name, and scenes by name or file. Worlds whose numbers others need have a header of their own.
+// The built-in worlds by name, and scenes by name or file. Worlds whose numbers are needed elsewhere have a header.
 #pragma once
 
 #include "scene/gltf.h"
@@ -25,7 +25,7 @@ struct World {
 /// Throws Error where load() would find neither a built-in world nor a file that may be glTF. Reads nothing.
 void requireThere(std::string_view name_or_file);
 
-/// `name_or_file`: a built-in world by name or a path. Throws Error when it is neither.
+/// Loads a built-in world by its name, or a file by its path. Throws Error when there is neither.
 [[nodiscard]] scene::Scene load(std::string_view name_or_file, std::uint64_t seed, const scene::Limits& limits = {});
 
 } // namespace gnomon::worlds

@@ -53,7 +53,7 @@ function drawCharts() {
   }
 }
 
-/// Of a logarithmic axis: 1, 2 and 5 of each power of ten.
+/// Labels of a logarithmic axis: 1, 2 and 5 of each power of ten.
 function fewTicks(value) {
   const first = Number(Number(value).toExponential()[0]);
   return [1, 2, 5].includes(first) && Math.abs(value / 10 ** Math.floor(Math.log10(value) + 1e-9) - first) < 1e-6 ? String(value) : "";

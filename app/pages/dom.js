@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all scripts of a report's page share: its data, elements, numbers, and what is chosen.
+// Shared by all scripts of a report's page: its data, elements, numbers, and the choices made.
 "use strict";
 
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -24,7 +24,7 @@ function number(value, decimals) {
   return Number.isFinite(value) ? value.toFixed(decimals) : "\u2013";
 }
 
-/// Of milliseconds, of which few are as good as they look.
+/// Milliseconds as text, with only as many digits as are meaningful.
 function ms(value) {
   return Number.isFinite(value) ? (value < 10 ? value.toFixed(2) : value < 100 ? value.toFixed(1) : value.toFixed(0)) + " ms" : "\u2013";
 }

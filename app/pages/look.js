@@ -51,7 +51,7 @@ function slider(stage) {
   return input;
 }
 
-/// What the masks hold where the pointer is.
+/// The line that shows the masks' values under the pointer.
 function readout(stage) {
   const kHint = "Click a picture, then wheel, drag, pinch, or + \u2212 0 and arrow keys: all pictures move together.";
   const line = el("div", { class: "readout" }, kHint);

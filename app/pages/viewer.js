@@ -167,7 +167,7 @@ async function shadedPixels(frame, mask_uri) {
   return out;
 }
 
-/// Shows a mask in a canvas, as it is or as the light that it lets through. What was asked for last is what stays.
+/// Shows a mask in a canvas, as it is or as the light that it lets through. The last call's mask stays.
 async function showMask(canvas, frame, mask_uri, shaded) {
   const wanted = Symbol("picture");
   canvas.wanted = wanted;

@@ -46,13 +46,13 @@ void requireForward(const lab::Contestant& contestant)
     }
 }
 
-/// What a technique's frames keep of those before.
+/// Whether a technique's frames keep maps and masks of earlier frames.
 struct Kept {
     bool maps = false;
     bool masks = false;
 };
 
-/// Each technique's turns: all is drawn anew; maps are kept while they hold; and where nothing moves masks, too.
+/// Each technique's turns: all is drawn anew; maps are kept while they hold; where nothing moves, masks are kept too.
 std::span<const Kept> turnsOf(const Settings& settings)
 {
     static constexpr std::array kTurns{Kept{false, false}, Kept{true, false}, Kept{true, true}};
@@ -75,7 +75,7 @@ std::vector<lab::Contestant> contestantsOf(const std::vector<Settings>& techniqu
     return contestants;
 }
 
-/// What the maps of the last frame give to the picture, which is the same for every technique.
+/// Measures the texel density and fit of the last frame's maps in the picture, which is the same for every technique.
 void measureFit(const host::SceneOnGpu& scene, const Shot& shot, const Settings& settings, BenchResult& result)
 {
     host::RenderOptions options = renderOptions(settings);
@@ -94,7 +94,7 @@ void measureFit(const host::SceneOnGpu& scene, const Shot& shot, const Settings&
     }
 }
 
-/// Of a path every frame is drawn once; the first warms up, unless there is but one.
+/// Along a path every frame is drawn once; the first one warms up unless it is the only one.
 lab::TimingOptions timingOptions(const Settings& settings)
 {
     lab::TimingOptions options{.repetitions = settings.repetitions, .warmup = settings.warmup, .reuse_maps = true};
@@ -165,14 +165,14 @@ void noteOutcomes(const BenchedTechnique& technique)
     }
 }
 
-/// What was found, and of what.
+/// A bench and its results.
 struct BenchRun {
     Shot shot;
     BenchResult result;
     std::optional<BenchFigures> earlier;
 };
 
-/// What the run is held against is read, and found to be of the same picture, before minutes are spent on it.
+/// Reads the earlier run, and requires that it has the same picture, before minutes are spent on the bench.
 std::optional<BenchFigures> earlierRun(const Settings& settings, const BenchRun& run,
                                        const std::vector<Settings>& techniques)
 {

@@ -22,7 +22,7 @@ Json row(const std::string& technique, std::string_view pass)
     return {{"technique", technique}, {"pass", pass}};
 }
 
-/// Of what both have; `pass` is the whole frame's too.
+/// Adds the counters that changed. `in_both`: a counter that only one run has is not compared.
 void compareCounts(Json& counters, const std::string& technique, std::string_view pass, const Counts& before,
                    const Counts& now, bool in_both)
 {
@@ -94,7 +94,7 @@ void compareTechnique(Json& counters, Json& times, const TechniqueFigures& befor
     }
 }
 
-/// Of `from` those that `other` has not.
+/// The techniques of `from` that `other` lacks.
 Json onlyIn(const BenchFigures& from, const BenchFigures& other)
 {
     Json names = Json::array();

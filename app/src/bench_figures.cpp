@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kLongestName = 1000; // of a technique with every setting that it can have
 constexpr const char* kNoLeast = "bytes_minimum";
 
-/// Of a text from the file: on one line, and short.
+/// A text from the file made short and printable on one line.
 std::string shortened(std::string text)
 {
     constexpr std::size_t kLongest = 200;

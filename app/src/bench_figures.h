@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a bench's JSON another bench is held against: counts and times of its passes, and what was looked at.
+// The figures of a bench's JSON that another bench is compared with: counts and times of its passes, and its view.
 #pragma once
 
 #include "result_json.h"
@@ -14,8 +14,8 @@
 
 namespace gnomon::app {
 
-/// By the frame without shadows of the same run and group, so that runs of a slower hour can be held against each
-/// other. Nothing where the clock measured none, or there was one sample.
+/// A time divided by that of the frame without shadows of the same run and group, so that runs of a slower hour
+/// compare. Nothing where the clock measured none; no range where there was one sample.
 struct RelativeTime {
     std::optional<double> median;
     std::optional<double> iqr;
@@ -23,8 +23,8 @@ struct RelativeTime {
 
 using Counts = std::map<std::string, std::uint64_t>;
 
-/// All that decides what a run draws, as JSON by key: "scene_hash", "eye", "lights", "path" and settings. Texts, for a
-/// copied tree of JSON cannot be destroyed without memory (scene/json.h).
+/// All that decides what a run draws, as JSON by key: "scene_hash", "eye", "lights", "path" and settings. They are
+/// texts because a copied tree of JSON cannot be destroyed without memory (scene/json.h).
 using Sight = std::map<std::string, std::string>;
 
 struct PassFigures {
@@ -48,13 +48,13 @@ struct BenchFigures {
     std::vector<TechniqueFigures> techniques;
 };
 
-/// Of a bench's JSON, from any source. Throws Error with one line that names the place by a JSON pointer; `file` is
-/// what that line calls it.
+/// Parses a bench's JSON from any source. Throws Error with one line that names the place by a JSON pointer and calls
+/// the text `file`.
 [[nodiscard]] BenchFigures parseBenchFigures(std::string_view text, const std::string& file);
-/// The same from a file of 16 MiB at most.
+/// Reads and parses a file of 16 MiB at most.
 [[nodiscard]] BenchFigures readBenchFigures(const std::filesystem::path& file);
 
-/// Of the JSON as a whole or of its head. Precondition: it has "settings", an object.
+/// The sight of a bench's JSON or of its head. Precondition: it has "settings", an object.
 [[nodiscard]] Sight sightOf(const Json& bench);
 
 } // namespace gnomon::app

@@ -41,7 +41,7 @@ constexpr Column kPass[] = {{"ms", "/ms", 3, "median milliseconds"},
                             {"draws", "/draws", 0, ""},
                             {"texels", "/texels", 0, ""}};
 
-/// What its techniques are called, without what all of them have in common.
+/// The names of a result's techniques without the parts that all of them have, and those parts.
 struct Names {
     std::vector<std::string> names;
     std::string common;

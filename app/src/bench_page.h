@@ -8,7 +8,7 @@
 
 namespace gnomon::app {
 
-/// As comparePage(), of a bench's JSON.
+/// The page of a bench's JSON, made like comparePage().
 [[nodiscard]] std::string benchPage(const Json& result);
 
 } // namespace gnomon::app

@@ -27,7 +27,7 @@ std::string iqrCell(const std::vector<host::FrameTimes>& samples)
     return cell(frame && samples.size() > 1 ? std::optional(frame->iqr) : std::nullopt, 3);
 }
 
-/// What making maps filterable took: a line for each technique that blurs.
+/// The cost of blurring maps: a line for each technique that blurs.
 std::string blurTable(const BenchResult& result)
 {
     TextTable table{{"blur", "path", "Mtexels", "taps/texel", "MiB moved", "least", "ratio"}, {}};
@@ -58,8 +58,8 @@ std::string cascadeTable(const BenchResult& result)
     return table.rows.empty() ? std::string() : "\n" + fittedTableText(table);
 }
 
-/// Where a frame of the one technique goes, pass by pass, beside the frame without shadows. Of several techniques it
-/// would be long, and results have it.
+/// The time of each pass of the one technique, beside the frame without shadows. With several techniques it is empty:
+/// it would be long, and results have it.
 std::string passTable(const BenchResult& result)
 {
     if (result.techniques.size() != 1) {
@@ -100,7 +100,7 @@ std::string passTable(const BenchResult& result)
     return "\n" + fittedTableText(table);
 }
 
-/// What frames along a path drew of their maps, and what they did not have to.
+/// The counters of vulkan::MapReuse for frames along a path.
 std::string reuseTable(const BenchResult& result)
 {
     TextTable table{{"maps that hold kept, per frame"}, {}};

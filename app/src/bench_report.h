@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a bench found, as JSON and as a table.
+// The results of a bench, as JSON and as a table.
 #pragma once
 
 #include "app/shot.h"
@@ -18,7 +18,7 @@ struct BenchedTechnique {
     Settings settings;
     lab::Timed redrawn; // every map drawn in every frame
     lab::Timed reused;  // maps that still hold are kept
-    /// Masks that still hold, too. Not along a path, where something moves.
+    /// Masks that still hold are kept too. Nothing along a path, where something moves.
     std::optional<lab::Timed> still;
     lab::TexelDensity density; // of the first light; and so the next
     double fit_efficiency = 0.0;
@@ -32,7 +32,7 @@ struct BenchResult {
     std::vector<BenchedTechnique> techniques;
 };
 
-/// What is known before anything is timed: of the result only `device` and `driver`.
+/// The JSON that is known before anything is timed. It reads only `device` and `driver` of the result.
 [[nodiscard]] Json benchHead(const BenchResult& result, const Shot& shot, const Settings& settings);
 [[nodiscard]] Json benchJson(const BenchResult& result, const Shot& shot, const Settings& settings);
 [[nodiscard]] std::string benchTable(const BenchResult& result, const Shot& shot, const Settings& settings);

@@ -185,7 +185,7 @@ std::vector<std::string> withBareValues(std::vector<std::string> arguments)
     return arguments;
 }
 
-/// What comes after "--" is no option, whatever it looks like.
+/// Takes the words after "--", which are no options whatever they look like.
 void takeWords(std::span<const std::string> words, const Subcommand& subcommand, Parsed& parsed)
 {
     if (subcommand.bit == kCompletion) {
@@ -284,7 +284,7 @@ void applyGiven(Settings& settings, const Setting& setting, std::string_view tex
     if ((setting.subcommands & subcommand.bit) == 0) {
         throw UsageError(fmt::format("{} is not a setting of {}", setting.key, subcommand.name));
     }
-    // What a preset said gives way; that both were given here is for validateSettings() to refuse.
+    // A preset's camera gives way. validateSettings() refuses two ways that the command line itself gave.
     const bool both_ways = setting.key == "camera" ? settings.given.contains("eye") || settings.given.contains("target")
                                                    : settings.given.contains("camera");
     if (!both_ways) {
@@ -317,7 +317,7 @@ void applyAll(Settings& settings, const Parsed& parsed, const Subcommand& subcom
     }
     applyWords(settings, parsed, subcommand);
     for (const auto& [setting, values] : parsed.options) {
-        // Of two files the first would stay empty, without a word.
+        // With two files the first would silently stay empty.
         if (values.size() > 1 && setting->group == SettingGroup::result && !setting->repeatable &&
             setting->type == SettingType::text) {
             throw UsageError(fmt::format("{} is given twice", spelled(*setting)));

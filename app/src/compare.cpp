@@ -232,7 +232,7 @@ Json tell(const CompareResult& result, const Shot& shot, const Settings& setting
     return json;
 }
 
-/// Of the shot that is made first.
+/// The settings of the shot that is made first.
 Settings firstOf(const std::optional<SweepPlan>& sweep, const Settings& settings)
 {
     return sweep && sweep->remakes_shot ? settingsAt(*sweep, 0, settings) : settings;

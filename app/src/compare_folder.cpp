@@ -146,7 +146,7 @@ ReportFolder::ReportFolder(const fs::path& folder, std::vector<std::string> file
     requireWritable((is_there ? path_ : path_.parent_path()) / ".gnomon-report");
 }
 
-/// What the folder has of an earlier report. Throws Error when it has anything else by a name that we write.
+/// Finds the files of an earlier report. Throws Error when the folder has any other file by a name that we write.
 void ReportFolder::takeStock()
 {
     earlier_ = filesOfReport(path_ / kReportResult);

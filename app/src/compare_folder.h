@@ -32,9 +32,9 @@ public:
     void write(const std::string& name, const Image8& picture);
     void write(const std::string& name, const Image16& mask);
     void write(const std::string& name, std::string_view bytes);
-    /// What a report with all that was written has: that, the page and result.json.
+    /// The names of the files written so far, and of the page and result.json.
     [[nodiscard]] std::vector<std::string> listed() const;
-    /// Puts what was written in its place, and removes what the earlier report had and this one has not.
+    /// Puts the written files in their place, and removes those that only the earlier report had.
     void keep();
 
 private:

@@ -60,7 +60,7 @@ Json overFramesJson(const TechniqueOnPath& path)
     return {{"rmse", rmse}, {"mean_abs_change", change}};
 }
 
-/// Of the first frame to which a step leads.
+/// The frame at the end of the step that pops most; null where none pops.
 Json popFrameJson(const PathResult& path, const TechniqueOnPath& technique)
 {
     const bool popped = technique.stability && technique.stability->pop > 0.0;
@@ -115,7 +115,7 @@ Json techniqueJson(const ComparedTechnique& technique, const std::optional<PathR
     return json;
 }
 
-/// What differs between the values of a sweep for all techniques alike, lists as long as the values.
+/// Adds the truth and the pixels at each value of a sweep, the same for all techniques, as lists as long as the values.
 void addPlaces(Json& json, const SweepResult& sweep)
 {
     json["truth"] = Json::array();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A comparison as JSON, with all that it takes to repeat it. The table on the terminal and the report's page are made
-// from it and know nothing else.
+// A comparison as JSON, with all that is needed to repeat it. The table on the terminal and the report's page are made
+// from it alone.
 #pragma once
 
 #include "compare_result.h"
@@ -11,7 +11,7 @@
 
 namespace gnomon::app {
 
-/// Without the names of a report's files, which writeReport() adds.
+/// The JSON without the names of a report's files, which writeReport() adds.
 [[nodiscard]] Json compareJson(const CompareResult& result, const Shot& shot, const Settings& settings);
 
 /// {"kind", "requested", "samples", ...}; `standard_error` is absent when no pixel counts.

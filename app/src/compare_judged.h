@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every technique is held against: one light of a shot and its truth.
+// One light of a shot and its truth, with which every technique is compared.
 #pragma once
 
 #include "app/shot.h"
@@ -10,7 +10,7 @@
 
 namespace gnomon::app {
 
-/// How a truth was come by.
+/// How a truth was made.
 struct TruthFacts {
     truth::Kind kind = truth::Kind::hard;
     std::uint32_t samples = 1; // rays per pixel
@@ -22,7 +22,7 @@ struct TruthFacts {
     bool point_like = false; // the light has no extent, so that area truth is the hard one
 };
 
-/// What the options and the light say of it; rays, seconds and from_cache are left.
+/// The facts that follow from the options and the light; rays, seconds and from_cache keep their defaults.
 [[nodiscard]] TruthFacts truthFacts(const Settings& settings, const Light& light);
 
 struct Judged {

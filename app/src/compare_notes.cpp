@@ -56,7 +56,7 @@ bool hasMany(const Json& json)
     return json.contains("sweep") && json.at("sweep").contains("truth");
 }
 
-/// What stands at `key`, "truth" or "pixels", for each value of such a sweep; else the one there is.
+/// The member `key`, "truth" or "pixels", for each value of a sweep that has many; else the only one.
 Json placesOf(const Json& json, const char* key)
 {
     const bool many = hasMany(json);
@@ -77,7 +77,7 @@ void notePixels(const Json& json, Notes& notes)
     }
 }
 
-/// That the size of a light is none is told unless a sweep goes on to others.
+/// Notes that the light has no extent, unless a sweep has values with one.
 void noteSize(const CompareResult& result, const Json& json, Notes& notes)
 {
     const Json truths = placesOf(json, "truth");
@@ -90,7 +90,7 @@ void noteSize(const CompareResult& result, const Json& json, Notes& notes)
     }
 }
 
-/// What a path could not tell.
+/// Notes the results that a path could not have.
 void notePath(const CompareResult& result, Notes& notes)
 {
     if (result.path->frames.first == result.path->frames.last) {
@@ -112,7 +112,7 @@ void notePath(const CompareResult& result, Notes& notes)
 
 std::string pixelsNote(const Json& pixels, std::uint64_t rays)
 {
-    constexpr std::uint64_t kFew = 20; // one in so many
+    constexpr std::uint64_t kFew = 20; // one in twenty
     const auto counted = pixels.at("counted").get<std::uint64_t>();
     if (counted == 0) {
         return fmt::format("no pixel counts, so there are no error numbers: {}{}", pixelsText(pixels),

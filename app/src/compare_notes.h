@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sentences on what kept a number from being there, or from meaning what one would think.
+// Sentences that say why a number is missing, or why it does not mean what one would think.
 #pragma once
 
 #include "compare_result.h"
@@ -11,10 +11,10 @@
 
 namespace gnomon::app {
 
-/// `json`: of `result`, but for the notes.
+/// The notes of a comparison. `json` is that of `result`, without the notes.
 [[nodiscard]] std::vector<std::string> compareNotes(const CompareResult& result, const Json& json);
-/// What to know of the numbers of these pixels, as a result has them, of which `rays` were traced: that there are none,
-/// or of few of the pixels that see a surface; empty when one in twenty counts.
+/// A note where no pixel counts, or fewer than one in twenty of those that see a surface; else empty. `pixels` is as a
+/// result has it; `rays` were traced.
 [[nodiscard]] std::string pixelsNote(const Json& pixels, std::uint64_t rays);
 
 } // namespace gnomon::app

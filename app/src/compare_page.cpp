@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is text is made here and read without scripts; pictures and charts are put in by pages/page.js.
+// Text is made here and read without scripts; pages/page.js puts in pictures and charts.
 #include "compare_page.h"
 
 #include "compare_text.h"
@@ -20,7 +20,7 @@
 namespace gnomon::app {
 namespace {
 
-/// What was compared and how, for whoever opens the page a year later.
+/// The inputs and the method of the comparison, for a reader a year later.
 std::string facts(const Json& result)
 {
     std::string list = "<dl class=\"facts\">\n";

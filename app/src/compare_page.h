@@ -8,11 +8,11 @@
 
 namespace gnomon::app {
 
-/// HTML in UTF-8 with all that it shows and runs: a browser asks for nothing. Made of the comparison's JSON alone, and
-/// of `pictures` (pagePictures()), which may be null. Every text in it is escaped.
+/// HTML in UTF-8 with all its pictures and scripts: a browser loads nothing else. It is made of the comparison's JSON
+/// and of `pictures` (pagePictures()), which may be null. Every text in it is escaped.
 [[nodiscard]] std::string comparePage(const Json& result, const Json& pictures);
 
-/// The colours that pictures have, by what they stand for: scales from end to end, and classes.
+/// The colours of pictures by their meaning: scales from end to end, and classes.
 [[nodiscard]] Json pageLegends();
 
 } // namespace gnomon::app

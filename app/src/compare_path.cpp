@@ -100,7 +100,7 @@ private:
         return {&shot_.scene, &shot_.state, shot_.eye, {shot_.lights[light_]}, 0};
     }
 
-    /// What the result says of the truths, from all of them.
+    /// Adds one frame's truth to the facts of the result.
     void note(const TruthRun& truth, bool is_first, bool show)
     {
         const truth::Visibility& visibility = truth.traced.visibility;

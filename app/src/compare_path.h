@@ -12,9 +12,9 @@ namespace gnomon::app {
 
 /// How often comparePath() calls `step`.
 [[nodiscard]] std::uint64_t pathSteps(const Settings& settings, const std::vector<Settings>& techniques);
-/// Moves `shot` over --frames, holds every technique against the truth of each, and fills `result`: techniques, best
-/// first, PathResult, and what is of the truth; the shot is back at the first frame afterwards, which
-/// CompareResult::judged is of. Techniques walk in lab::timingGroups(); each group meets the truths anew, through the
+/// Moves `shot` over --frames, compares every technique with the truth of each, and fills `result`: techniques, best
+/// first, PathResult, and facts of the truth. Afterwards the shot is back at the first frame, of which
+/// CompareResult::judged is. Techniques walk in lab::timingGroups(); each group meets the truths anew, through the
 /// cache. Pictures are kept for a report only. Throws as judge() does.
 void comparePath(const host::SceneOnGpu& scene, Shot& shot, const Settings& settings,
                  const std::vector<Settings>& techniques, CompareResult& result, const std::function<void()>& step);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a comparison found. Its JSON is made from it (compare_json.h), and all that is shown is made from that.
+// The results of a comparison. Its JSON is made from them (compare_json.h), and all that is shown is made from the
+// JSON.
 #pragma once
 
 #include "app/shot.h"
@@ -17,7 +18,7 @@
 
 namespace gnomon::app {
 
-/// What the rays of a truth were: of a light without extent area truth is the hard one.
+/// The kind of truth that was traced: hard instead of area for a light without extent.
 [[nodiscard]] inline truth::Kind tracedKind(const TruthFacts& truth)
 {
     return truth.point_like ? truth::Kind::hard : truth.kind;
@@ -36,7 +37,7 @@ struct Shades {
     Image8 unlit;
 };
 
-/// What all techniques have in common along --path.
+/// The data that all techniques share along --path.
 struct PathResult {
     std::string name; // or file
     FrameRange frames;

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What a folder may be called anywhere, and a link lead to as it is.
+/// The text as a folder's name that is valid on any system and in a link.
 std::string plainName(std::string text)
 {
     constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
@@ -38,8 +38,7 @@ std::string plainName(std::string text)
     return text.empty() ? "scene" : text;
 }
 
-/// What scenes are called in tables and folders: files by their names without an end, what is there twice with a
-/// number.
+/// The names of scenes in tables and folders. A file has its name without its extension; a repeated name has a number.
 std::vector<std::string> labelsOf(const std::vector<std::string>& scenes)
 {
     std::vector<std::string> labels;
@@ -81,7 +80,7 @@ Json meanOf(const Json& errors)
     return std::exp(sum / static_cast<double>(errors.size()));
 }
 
-/// Of all techniques, the least mean first.
+/// The errors of all techniques over the scenes, the least mean first.
 Json overScenes(const Json& scenes)
 {
     std::vector<Json> techniques;

@@ -20,11 +20,11 @@ struct TextTable {
 
 /// Columns of a terminal that a table fits in.
 inline constexpr std::size_t kTableWidth = 120;
-/// The same, but where a line would be longer than kTableWidth the names of the first column are numbered and stand
+/// tableText(), but where a line would be longer than kTableWidth the names of the first column are numbered and stand
 /// below the table.
 [[nodiscard]] std::string fittedTableText(const TextTable& table);
 
-/// What a cell shows that has no number.
+/// The text of a cell without a number.
 inline constexpr std::string_view kNoNumber = "-";
 [[nodiscard]] std::string cell(const std::optional<double>& value, int decimals);
 

@@ -9,8 +9,8 @@
 
 namespace gnomon::app {
 
-/// A row for each technique, best first; of a sweep, one for each technique and value. `short_names`: without what all
-/// techniques have in common.
+/// A row for each technique, best first; for a sweep, one for each technique and value. `short_names` leaves out the
+/// parts that all techniques have.
 [[nodiscard]] TextTable compareTable(const Json& result, bool short_names);
 /// "area, 64 rays per pixel, standard error 0.0041; 2.1 million rays in 3.2 s (0.7 million/s)".
 [[nodiscard]] std::string truthText(const Json& result);
@@ -22,7 +22,7 @@ namespace gnomon::app {
 [[nodiscard]] std::string pixelsText(const Json& pixels);
 /// "directional, direction 0.6,-0.8,0, 0.53 degrees wide". `light`: the result's light_source.
 [[nodiscard]] std::string lightText(const Json& light);
-/// All of it for a terminal.
+/// The whole comparison for a terminal.
 [[nodiscard]] std::string compareText(const Json& result);
 
 } // namespace gnomon::app

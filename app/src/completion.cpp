@@ -23,7 +23,7 @@
 namespace gnomon::app {
 namespace {
 
-/// What candidates are put into, and the start that they must have.
+/// Collects the candidates that have a given start.
 struct Answer {
     Completion completion;
     std::string before; // what stands in the word before the part that is completed: "pcf+", "--filter="
@@ -51,7 +51,7 @@ std::string_view summaryOf(std::string_view choice, std::string_view name)
     return row != nullptr ? row->summary : std::string_view();
 }
 
-/// What can be said by its own words, without looking at the scene or the disk.
+/// Adds the values that the setting itself lists, without looking at the scene or the disk.
 void addValues(Answer& answer, const Setting& setting)
 {
     if (setting.choices != nullptr) {
@@ -76,7 +76,7 @@ void addKeys(Answer& answer, bool (*is_one)(const Setting&))
     }
 }
 
-/// What follows the last + of a technique: a value of a choice that has none yet, or KEY=.
+/// Adds candidates after the last + of a technique: a value of a choice that has none yet, or KEY=.
 void addTechniqueParts(Answer& answer)
 {
     answer.completion.goes_on = true;

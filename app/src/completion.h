@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What may follow what was typed. The program itself answers its shell's completion, so that a line is completed by the
-// tables that it is read by; the scripts of `gnomon completion SHELL` only ask and show.
+// Completion of a typed line. The program itself answers its shell, so the same tables complete a line and read it; the
+// scripts of `gnomon completion SHELL` only ask and show.
 #pragma once
 
 #include <span>
@@ -19,15 +19,15 @@ struct Completion {
     std::vector<Candidate> candidates;
     /// Files may follow too, by their extensions: "gltf glb". "/": folders alone. Empty: no files.
     std::string files;
-    bool goes_on = false; // the word is not at its end with a candidate: no blank after it
+    bool goes_on = false; // a word may go on after a candidate: no blank follows it
 };
 
-/// `words` are those after the program's name up to the cursor; the last one, which may be empty, is completed.
-/// Whatever they are, there is an answer. Reads the scene that a line names, where names in it are asked for.
+/// `words` are those after the program's name up to the cursor; the last one, which may be empty, is completed. There
+/// is an answer to any words. Reads the scene that a line names, where names in it are asked for.
 [[nodiscard]] Completion completionOf(std::span<const std::string> words);
 
-/// The answer as the scripts read it: a line for each candidate, WORD, a tab and the description; then ":files" with
-/// the extensions likewise, and ":nospace".
+/// The answer as the scripts read it: a line for each candidate, WORD, a tab and the description; then ":files", a tab
+/// and the extensions, and ":nospace".
 [[nodiscard]] std::string completionText(const Completion& completion);
 
 [[nodiscard]] std::span<const std::string_view> shellNames();

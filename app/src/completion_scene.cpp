@@ -13,7 +13,7 @@
 namespace gnomon::app {
 namespace {
 
-/// Who waits for a completion does not wait long: larger files have no names for it.
+/// Larger files are not read for completion, so that nobody waits long.
 constexpr std::uint64_t kMostBytes = 32U << 20U;
 
 std::string sceneOf(std::span<const std::string> words)

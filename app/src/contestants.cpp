@@ -35,7 +35,7 @@ bool isAll(const Settings& settings)
     return settings.techniques.empty() || settings.techniques.front() == "all";
 }
 
-/// Of all, those that can have the format that was asked for. Ids and fins go with less than depths do.
+/// The techniques of `all` that can have the requested format. Ids and fins allow fewer options than depths do.
 std::vector<std::string> allOf(const Settings& settings)
 {
     std::vector<std::string> texts;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which techniques `bench` and `compare` are about.
+// The techniques of `bench` and `compare`.
 #pragma once
 
 #include "app/settings.h"
@@ -9,10 +9,10 @@
 
 namespace gnomon::app {
 
-/// Whether the options and presets say themselves which technique it is: by what the default list would override.
+/// Whether options or presets name one technique, by a setting that the default list would override.
 [[nodiscard]] bool namesOneTechnique(const Settings& settings);
 
-/// Whether a list makes the techniques; then the options are what they have in common, and no technique by themselves.
+/// Whether a list makes the techniques. The options are then common to all of them, and are no technique by themselves.
 [[nodiscard]] bool hasManyTechniques(const Settings& settings);
 
 /// The techniques asked for, each as one may write it in a list of --techniques beside the same options.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of the views of `--debug`: those that colour receivers by what the plan has for them, and that of the
-// octree.
+// Parts of the views of `--debug`: those that colour receivers by the plan, and the view of the octree.
 #pragma once
 
 #include "app/shot.h"
@@ -19,7 +18,7 @@ struct Drawn {
     std::size_t light;
 };
 
-/// Throws Error when the light has no map, of which `what` could be shown.
+/// Throws Error, which names `what`, when the light has no map.
 void requireMap(const Drawn& drawn, std::string_view what);
 
 /// Shadow texels per pixel.
@@ -35,7 +34,7 @@ void requireMap(const Drawn& drawn, std::string_view what);
 /// How filter raymarch fared: where blocks knew the answer, where rays did, and where they came to their ceiling.
 /// Precondition: the picture has masks, drawn with RenderOptions::shows_rays.
 [[nodiscard]] Image8 raysView(const Drawn& drawn);
-/// What the two positions of a stepping sun count for.
+/// The share of each of a stepping sun's two positions.
 [[nodiscard]] Image8 stepsView(const Drawn& drawn);
 
 } // namespace gnomon::app

@@ -93,8 +93,8 @@ Image8 layersPicture(const Drawn& drawn)
     return lab::tintedPicture(drawn.picture.colour, layersOfPixels(drawn, layers), legend);
 }
 
-/// What each texel of a map stands for, as it is read: metres along the light, of filter id the id; of lvsm its first
-/// layer, of others blurred if they blur.
+/// The map with the meaning of each texel as it is read: metres along the light, or the id with filter id. For lvsm it
+/// is the first layer; filters that blur have it blurred.
 lab::MapPanel panelOf(const Drawn& drawn, const ResolvedOptions& options, const View& view)
 {
     const Tile& tile = view.place.tile;

@@ -9,7 +9,7 @@
 
 namespace gnomon::app {
 
-/// What --debug takes, "none" first.
+/// The names that --debug takes, "none" first.
 [[nodiscard]] std::vector<std::string_view> debugViewNames();
 /// Throws UsageError where the view that --debug names has nothing to show.
 void requireDebugView(const Settings& settings);

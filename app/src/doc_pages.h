@@ -13,7 +13,7 @@ namespace gnomon::app {
 /// "docs/techniques/msm.md", in the source tree and where the documents are installed.
 [[nodiscard]] std::string pageOf(const ChoiceValue& value);
 [[nodiscard]] std::string pageOf(const Setting& setting);
-/// Of a built-in preset; those that stand for a document have a page of their own.
+/// The page of a built-in preset; those that stand for a document have a page of their own.
 [[nodiscard]] std::string pageOfPreset(std::string_view name);
 
 } // namespace gnomon::app

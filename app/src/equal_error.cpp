@@ -39,7 +39,7 @@ double tapsOf(const Settings& settings)
     return settings.shadow.pcf.taps;
 }
 
-/// What of the base would not let PCF be had is given up: a map format that only other filters store.
+/// The base as plain PCF. A map format that PCF cannot store is dropped.
 Settings plainPcf(const Settings& base)
 {
     Settings plain = base;

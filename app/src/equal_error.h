@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a technique costs beside plain PCF that errs no more: the fair price of its quality.
+// The cost of a technique beside plain PCF whose error is no larger.
 #pragma once
 
 #include "app/settings.h"
@@ -13,7 +13,7 @@
 
 namespace gnomon::app {
 
-/// One way to run plain PCF, with what it costs roughly: texels rendered, and texels read by the pixels of the picture.
+/// One way to run plain PCF, with its rough cost: texels rendered, and texels read by the pixels of the picture.
 struct PcfSetting {
     Settings settings;
     double work = 0.0;
@@ -26,7 +26,7 @@ inline constexpr std::uint32_t kEqualErrorMaxMap = 8192;
 /// `max_side`; the least work first, and at equal work the smaller map. All else is as in `base`.
 [[nodiscard]] std::vector<PcfSetting> pcfLadder(const Settings& base, std::uint32_t max_side);
 
-/// PCF with default values of the other choices: what others are held against.
+/// Is it PCF with default values of the other choices, with which others are compared?
 [[nodiscard]] bool isPlainPcf(const Settings& settings);
 
 struct EqualError {
@@ -39,7 +39,7 @@ struct EqualError {
     std::optional<double> pcf_ms;
     std::optional<double> without_ms;   // without shadows
     std::optional<double> shadow_ratio; // `ratio` of the frames less the one without shadows; nothing: none is left
-    std::uint32_t tried = 0;            // settings of PCF that were held against the technique's error
+    std::uint32_t tried = 0;            // settings of PCF whose error was compared with the technique's
     std::string reason;                 // a sentence; empty when there is a ratio
 };
 
@@ -49,10 +49,10 @@ struct EqualError {
                                                      const std::function<std::optional<double>(std::size_t)>& rmse_of,
                                                      std::uint32_t& tried);
 
-/// Finds the match of one technique after another. Each PCF is drawn at most once; all are held against one truth.
+/// Finds the match of one technique after another. Each PCF is drawn at most once; all are compared with one truth.
 class EqualErrorSearch {
 public:
-    /// `step` is called after every frame or so and may throw to stop. All must outlive the search.
+    /// `step` is called about once a frame and may throw to stop. All arguments must outlive the search.
     EqualErrorSearch(const host::SceneOnGpu& scene, const lab::Subject& subject, const truth::Traced& truth,
                      const Settings& base, const std::function<void()>& step);
     /// `rmse`: of the technique against the truth; nothing when no pixel counts.

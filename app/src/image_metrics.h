@@ -15,15 +15,15 @@ namespace gnomon::app {
 
 struct ImageMetrics {
     std::string_view interpretation; // what the values were taken for
-    std::uint32_t channels = 0;      // that were held against each other: 1 or 3
+    std::uint32_t channels = 0;      // that were compared: 1 or 3
     lab::ErrorNumbers error;         // over all values of all channels
     double ssim = 0.0;
     double flip = 0.0;
     std::uint64_t counted = 0; // pixels
 };
 /// Grey values are linear visibility; `encoded` colours are sRGB-encoded, others linear. Colours' rmse, mae, bias and
-/// p99 are of the values as stored, ssim is of their Rec. 709 luminance, flip of the linear colours. Alpha is passed
-/// over. Precondition: same size, at least one pixel, both grey or both colour, all values finite.
+/// p99 are of the values as stored, ssim is of their Rec. 709 luminance, flip of the linear colours. Alpha is ignored.
+/// Precondition: same size, at least one pixel, both grey or both colour, all values finite.
 [[nodiscard]] ImageMetrics measureImages(const ImageF& test, const ImageF& truth, bool encoded);
 
 } // namespace gnomon::app

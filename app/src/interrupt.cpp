@@ -16,7 +16,7 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_alw
 
 extern "C" void onSignal(int number)
 {
-    // The number before the flag: whoever sees the flag knows which signal it was, and of two signals that come at the
+    // The number is set before the flag, so that a reader of the flag knows the signal. When two signals come at the
     // same time, to two threads or one in the other's handler, one is the first.
     int none = 0;
     if (!first_signal.compare_exchange_strong(none, number)) {

@@ -15,7 +15,7 @@ public:
     [[nodiscard]] const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// From now on; a signal that is ignored already, as in the background of a script, stays so.
+/// Starts to watch for the signals. One that is ignored already, as in the background of a script, stays so.
 void watchForInterrupts();
 /// True once a signal came. For work that polls by itself.
 [[nodiscard]] const std::atomic<bool>& interruptFlag();

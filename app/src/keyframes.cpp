@@ -35,7 +35,7 @@ constexpr double kLeastFov_deg = 0.1;   // as --fov
 constexpr double kLargestFov_deg = 179.0;
 constexpr double kShortest = 1e-12; // a direction's length must be told from rounding noise
 
-/// Of a text from the file: on one line, and short.
+/// A text from the file made short and printable on one line.
 std::string shown(std::string text)
 {
     constexpr std::size_t kLongest = 200;
@@ -191,7 +191,7 @@ double KeyTrack::slope(std::size_t key, int component) const
     const double before = secant(key - 1);
     const double after = secant(key);
     if (!(before * after > 0.0)) {
-        return 0.0; // a turning point: whoever goes on beyond it overshoots
+        return 0.0; // a turning point: another slope would overshoot
     }
     const double h_before = keys_[key].at_s - keys_[key - 1].at_s;
     const double h_after = keys_[key + 1].at_s - keys_[key].at_s;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A line and status 1 where the program would fall without a word, in code or threads that are not ours.
+// A line and status 1 where the program would end silently, in code or threads that are not ours.
 #pragma once
 
 namespace gnomon::app {
 
 /// An exception that leaves a thread of a driver or library, mostly for want of memory, ends the program with a line.
-/// So does a signal (SIGSEGV, SIGBUS, SIGABRT), where memory is limited (`ulimit -v`, `-d`): drivers on the CPU do not
-/// check all that they allocate. Without a limit signals stay what they are, for debuggers. For main() alone.
+/// So does a signal (SIGSEGV, SIGBUS, SIGABRT) where memory is limited (`ulimit -v`, `-d`): drivers on the CPU do not
+/// check all their allocations. Without a limit signals keep their effect, for debuggers. Only main() calls it.
 void haveLastWords() noexcept;
 
 } // namespace gnomon::app

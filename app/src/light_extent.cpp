@@ -41,7 +41,7 @@ double distance2ToTriangle(const std::array<glm::dvec3, 3>& corners)
     return std::min({distance2ToSegment(a, b), distance2ToSegment(b, c), distance2ToSegment(c, a)});
 }
 
-/// Of the corners taken to where the origin is by `rel_from_object`.
+/// The squared distance from the origin to the polygon transformed by `rel_from_object`.
 double distance2ToPolygon(const scene::Polygon& polygon, const glm::dmat4& rel_from_object)
 {
     const auto corner = [&](std::size_t i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `list` knows by name.
+// The names that `list` knows.
 #pragma once
 
 #include <string_view>
@@ -12,7 +12,7 @@ struct ListedName {
     std::string_view name;
     std::string_view summary;
 };
-/// Sections, choices and their values, settings, presets and worlds. What several have in common is there once.
+/// Sections, choices and their values, settings, presets and worlds. A name that several of them have is there once.
 [[nodiscard]] std::vector<ListedName> listedNames();
 [[nodiscard]] bool isListed(std::string_view name);
 

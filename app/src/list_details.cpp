@@ -205,8 +205,8 @@ std::vector<const Setting*> settingsOf(const ChoiceValue& value)
         const auto count = std::ranges::count_if(
             others, [&setting](const std::set<std::string_view>& keys) { return keys.contains(setting.key); });
         const bool is_own = used.contains(setting.key) && 3 * static_cast<std::size_t>(count) <= 2 * others.size();
-        // Some need a value of another choice besides. What is named for a setting of the value's name is the
-        // setting's.
+        // Some settings of a value also need a value of another choice, and are known by their name. Where a setting
+        // has the value's name, such names belong to that setting.
         const bool is_named_for =
             findSetting(value.name) == nullptr && setting.key.starts_with(fmt::format("{}.", value.name));
         if (is_own || is_named_for) {

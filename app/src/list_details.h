@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `list NAME` shows of one thing.
+// The text of `list NAME`.
 #pragma once
 
 #include "app/preset.h"

@@ -40,7 +40,7 @@ Json refusedJson(const std::vector<Refused>& refused)
     return rows;
 }
 
-/// Of all values of that name, each rule once.
+/// The rules of all values of that name, each once; all rules where the name is empty.
 Json refusedNamed(std::string_view name)
 {
     if (name.empty()) {
@@ -60,7 +60,7 @@ Json refusedNamed(std::string_view name)
     return rows;
 }
 
-/// The setting itself, and those that mean something with a value of that name.
+/// The setting of that name, and those that have an effect with a value of that name.
 Json settingsNamed(std::string_view name)
 {
     std::vector<const Setting*> chosen;

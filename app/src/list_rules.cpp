@@ -64,7 +64,7 @@ void addRefusedFormats(std::vector<Refused>& refused, std::span<const Filter> fi
     }
 }
 
-/// What a filter's options may not be with a format that it can use: each at the end of its range.
+/// Adds a filter's options that a format has no room for. Each option is tried at the end of its range.
 void addRefusedMoments(std::vector<Refused>& refused, std::span<const Filter> filters)
 {
     constexpr std::string_view kOptions[] = {"depth-remap=1", "esm.exponent=10000", "evsm.positive=10000",

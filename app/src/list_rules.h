@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What does not go together, as rules with reasons.
+// The combinations that are refused, as rules with reasons.
 #pragma once
 
 #include <gnomon/choices.h>
@@ -16,10 +16,10 @@ struct Refused {
 };
 /// Rules of the choices first, then formats that filters cannot use, then options that a format has no room for.
 [[nodiscard]] std::vector<Refused> allRefused();
-/// The rules that this value is refused by beside values of other choices; of a filter, formats and options too.
+/// The rules that refuse this value beside values of other choices; for a filter, also beside formats and options.
 [[nodiscard]] std::vector<Refused> refusedOf(const ChoiceValue& value);
 
-/// What maps of these filters are stored as.
+/// The formats in which maps of these filters are stored.
 struct StoredAs {
     std::vector<std::string_view> filters; // that store the same
     std::span<const MapFormat> formats;    // the usual one first; none: they have no maps

@@ -50,7 +50,8 @@ std::optional<std::string> whyNot(const Setting& setting, const Settings& settin
     return used ? std::nullopt : std::optional(fmt::format("has an effect only with {}", setting.used_when));
 }
 
-/// Of the techniques of a list and of --technique. A map that is not drawn has no parts to look at.
+/// Tells of parts without effect in --technique and in the techniques of a list. `render --truth` draws no map, so it
+/// has no parts to check.
 void tellParts(const Settings& settings, const std::vector<Settings>& techniques, std::vector<std::string>& told)
 {
     const auto tell = [&](const Settings& technique, std::string_view text) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// --set object and --set light-groups: who casts and who receives, for whom.
+// --set object and --set light-groups: which objects cast and receive, for which lights.
 #pragma once
 
 #include "app/shot.h"
@@ -9,7 +9,7 @@ namespace gnomon::app {
 /// NAME:KEY=VALUE,... with the keys of a file's extras (scene::Casting), several with ; between them. Adds to
 /// Settings::objects. Throws UsageError.
 void applyObjects(Settings& settings, const SettingValue& value);
-/// NAME:GROUP+GROUP..., likewise. Adds to Settings::light_groups.
+/// NAME:GROUP+GROUP..., several with ; between them. Adds to Settings::light_groups. Throws UsageError.
 void applyLightGroups(Settings& settings, const SettingValue& value);
 
 /// To the nodes of that name, all of them, and what is below them. Throws UsageError where a name has nothing to draw.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `gnomon plan`: the plan of a frame as JSON, or a light's maps as a picture. Uses core alone, so it needs no GPU and
-// says the same on every machine; but for lvsm's layers of depth where they follow what is drawn (lloyd): those are
+// is the same on every machine. The exception is lvsm's layers of depth that follow drawn depths (lloyd): those are
 // drawn and read back.
 #include "app/shot.h"
 #include "plan_layers.h"
@@ -28,7 +28,7 @@ Json numbers(const Vector& v)
     return Json::array({v.x, v.y, v.z});
 }
 
-/// What the light is, beside what the plan says of it.
+/// Adds the light's own properties, which the plan does not have.
 void describeLight(const host::ShadedLight& light, Json& json)
 {
     const Light& caster = light.caster;
@@ -99,11 +99,11 @@ public:
             }
         }
     }
-    /// The last ones.
+    /// The frame, the plan and the objects of the last frame.
     [[nodiscard]] const Frame& frame() const { return frame_; }
     [[nodiscard]] const Plan& plan() const { return *plan_; }
     [[nodiscard]] const ObjectSet& objects() const { return objects_; }
-    /// Of all but the first.
+    /// The waits of all frames after the first.
     [[nodiscard]] const lab::Waits& waits() const { return waits_; }
 
 private:

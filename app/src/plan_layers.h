@@ -9,16 +9,16 @@
 
 namespace gnomon::app {
 
-/// For other filters, nothing; where layers do not depend on what is drawn, it needs no GPU.
+/// It does nothing for other filters, and needs no GPU where layers do not depend on drawn depths.
 class PlanLayers {
 public:
-    /// Opens the GPU where layers follow what is drawn. Throws Error.
+    /// Opens the GPU where layers follow drawn depths. Throws Error.
     PlanLayers(const Settings& settings, const Shot& shot);
     ~PlanLayers();
     PlanLayers(const PlanLayers&) = delete;
     PlanLayers& operator=(const PlanLayers&) = delete;
 
-    /// A frame, drawn where it must be: layers follow from frame to frame.
+    /// Takes the next frame, and draws it where needed: layers follow from frame to frame.
     void follow(const Shot& shot);
     /// Adds "layers" to each view of the last frame.
     void describe(const Plan& plan, Json& views) const;

@@ -34,7 +34,7 @@ constexpr std::array kPresets{
 })"},
     // All of the article: a floating-point map, one constant bias for the scene, nine comparisons with offsets that a
     // projective fetch divides by w, a Gaussian over the screen by its own taps, and its shading. Its depth before the
-    // division, z (f / (f - n)) - n f / (f - n), is metres along the axis but for a factor of 1.001.
+    // division, z (f / (f - n)) - n f / (f - n), is metres along the axis times 1.001.
     Preset{"shastry-2005", "A. S. Shastry, Soft-Edged Shadows, 2005: 3x3 PCF, then a blur on the screen", R"({
   "scene": "spotlit", "camera": "stage", "spot.cone": 30, "spot.near": 1, "spot.range": 1024,
   "reflection": "phong-2005", "aa": "none", "ambient-occlusion": "off", "tone": "filmic", "dither": false,
@@ -166,8 +166,7 @@ void applyEntry(Settings& settings, const std::string& key, const Json& value, s
     if (setting != nullptr) {
         requireType(*setting, value);
     }
-    if (setting != nullptr &&
-        setting->command_line_only) { // who runs a preset would not see what it overwrites or reads
+    if (setting != nullptr && setting->command_line_only) { // a preset's user would not see what it overwrites or reads
         throw UsageError(fmt::format("{} {} of this run alone; give it on the command line", key,
                                      setting->type == SettingType::flag ? "is" : "names a file"));
     }

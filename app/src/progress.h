@@ -11,7 +11,7 @@ namespace gnomon::app {
 
 class Progress {
 public:
-    /// Work of so many steps.
+    /// Work of `total` steps.
     Progress(std::string label, std::uint64_t total);
     /// Work whose share done is known.
     explicit Progress(std::string label);

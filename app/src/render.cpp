@@ -51,7 +51,8 @@ void writePicture(const fs::path& file, host::FrameRenderer& renderer, const Set
     }
 }
 
-/// What became of the lights, when it is not what one hoped for. Refused ones were named before.
+/// Notes lights that have smaller maps than they ask for, or whose outcome is a fallback or worse. Refused lights were
+/// named before.
 void noteOutcomes(const Shot& shot, const Plan& plan)
 {
     if (const auto smaller = std::ranges::count_if(plan.lights, [](const LightPlan& l) { return l.halved > 0; })) {
@@ -70,8 +71,7 @@ void noteOutcomes(const Shot& shot, const Plan& plan)
     }
 }
 
-/// A motion that joins two positions of a sun has one where nothing moves it: who asked for a single picture may not
-/// know.
+/// Notes that a motion that joins two positions of a sun has only one in a single picture, where nothing moves the sun.
 void notePositions(const Settings& settings, const Plan& plan)
 {
     const Motion motion = settings.shadow.technique.motion;

@@ -9,7 +9,7 @@
 
 namespace gnomon::app {
 
-/// Says what is wrong before any work is done. A folder that it made and that stays empty is removed again.
+/// Reports errors before any work is done. Removes a folder that it made and that stays empty.
 class RenderTarget {
 public:
     /// Throws UsageError for a name that cannot be, Error for a place that cannot be written.
@@ -20,8 +20,8 @@ public:
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] bool oneForEach() const { return folder_wanted_; } // frame; else for the last
-    /// The file of a frame; makes the folder when it is not there yet. Nothing if the frame is not wanted, since of
-    /// several frames that go to one file only the last one stays.
+    /// The file of a frame; makes the folder when it is not there yet. Nothing if the frame is not wanted: only the
+    /// last of several frames goes to a single file.
     [[nodiscard]] std::optional<std::filesystem::path> frame(std::uint32_t index);
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pages of all reports have in common: one file that asks for nothing from elsewhere.
+// HTML that the pages of all reports share: one file that loads nothing from elsewhere.
 #pragma once
 
 #include "compare_table.h"
@@ -14,7 +14,7 @@ namespace gnomon::app {
 [[nodiscard]] std::string escaped(std::string_view text);
 /// A name and what it is, of a list <dl>.
 [[nodiscard]] std::string definition(std::string_view name, std::string_view text);
-/// With a heading that names it. `heading` is text, `body` HTML; without a body it is none.
+/// A section with a heading. `heading` is text, `body` HTML; empty without a body.
 [[nodiscard]] std::string section(std::string_view id, std::string_view heading, std::string_view body);
 /// A list of the notes, or nothing.
 [[nodiscard]] std::string notesHtml(const Json& result);
@@ -26,7 +26,7 @@ struct TableHtml {
     bool picks = false; // a row is chosen by a click, and the pictures are the chosen row's
 };
 [[nodiscard]] std::string tableHtml(const TextTable& table, const TableHtml& about);
-/// What the columns mean, folded away.
+/// The meanings of the columns, folded away.
 [[nodiscard]] std::string meaningsHtml(const TextTable& table);
 
 /// PNG as a data: URI.
@@ -42,7 +42,7 @@ struct Page {
 };
 /// The whole file, in UTF-8. The scripts, the style and the charts' library are in it.
 [[nodiscard]] std::string pageHtml(const Page& page);
-/// What ends the part of a page that its pictures do not change.
+/// The tag before a page's pictures. The part of a page before it does not depend on them.
 inline constexpr std::string_view kPicturesTag = "<script type=\"application/json\" id=\"pictures\">";
 
 } // namespace gnomon::app

@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 4> kNumbered{"mask.png", "error.png", "cl
 constexpr std::array<std::string_view, 3> kMoments{"", "_middle", "_last"};
 constexpr std::array<std::string_view, 3> kOfMoment{"mask", "error", "classes"};
 
-/// Of a technique, after its number.
+/// Whether it is the name of a technique's picture, without its number.
 bool isNumbered(const std::string& name)
 {
     for (const std::string_view moment : kMoments) {
@@ -27,7 +27,7 @@ bool isNumbered(const std::string& name)
     return std::find(kNumbered.begin(), kNumbered.end(), name) != kNumbered.end();
 }
 
-/// Of none of the techniques.
+/// Whether it is the name of a file that belongs to no technique.
 bool isFixed(const std::string& name)
 {
     constexpr std::array<std::string_view, 3> kFixed{kReportPage, kReportResult, kReportTruth};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the files of a comparison's report are called.
+// The names of the files of a comparison's report.
 #pragma once
 
 #include "app/settings.h"
@@ -15,16 +15,16 @@ inline constexpr const char* kReportPage = "index.html";
 inline constexpr const char* kReportResult = "result.json";
 inline constexpr const char* kReportTruth = "truth.png";
 
-/// Names of a report's files, the page and result.json last. `shown`: techniques, of a sweep none.
+/// Names of a report's files, the page and result.json last. `shown` is the number of techniques, 0 for a sweep.
 [[nodiscard]] std::vector<std::string> reportFiles(std::size_t shown);
-/// The same of a comparison along --path: pictures of the first, the middle and the last frame.
+/// Names of the files of a report along --path, with pictures of the first, the middle and the last frame.
 [[nodiscard]] std::vector<std::string> pathReportFiles(std::size_t shown, const FrameRange& frames);
-/// Whether a report could have it: a list from a file is not taken at its word.
+/// Whether a report could have a file of this name: names that are read from a file are not trusted.
 [[nodiscard]] bool isReportFile(const std::string& name);
 
 /// "03_mask.png" of the technique in row 2.
 [[nodiscard]] std::string numbered(std::size_t index, std::string_view what);
-/// What the names of pictures end in, before ".png", for each of a path's shown frames.
+/// The end of pictures' names before ".png", for each of a path's shown frames.
 [[nodiscard]] std::vector<std::string_view> momentsOf(std::size_t shown_frames);
 /// "mask_last.png".
 [[nodiscard]] std::string pictureOf(std::string_view what, std::string_view moment);

@@ -24,7 +24,7 @@ Image8 maskAs8Bit(const ImageF& mask)
     return picture;
 }
 
-/// What is put in the page for one frame, all of it reduced alike.
+/// The pictures of one frame in the page, all reduced alike.
 class FrameOfPage {
 public:
     explicit FrameOfPage(std::uint32_t reduction) : reduction_(reduction) { json_["reduction"] = reduction; }

@@ -18,14 +18,14 @@ namespace gnomon::app {
 /// More pixels of techniques' frames than this are shown smaller, so that a page stays one that a browser opens: some
 /// 35 MB.
 inline constexpr std::uint64_t kMostPagePixels = std::uint64_t{16} << 20U;
-/// Into how many pixels on each side one is to be made of, for so many pixels.
+/// How many pixels on each side become one, for a page of `pixels`.
 [[nodiscard]] std::uint32_t pageReduction(std::uint64_t pixels);
 /// Means of squares of `reduction` pixels on a side; what is left at the right and below makes smaller ones.
 [[nodiscard]] Image8 reduced(const Image8& picture, std::uint32_t reduction);
 
 /// [{"frame", "reduction", "truth", "lit", "unlit", "densities", "techniques": [{"mask", "error", "classes",
-/// "density"}]}] with PNGs as data: URIs, for each frame that is shown. `frame` is there along a path; "density" is a
-/// place in "densities", and not there along a path. Of a sweep there are no techniques.
+/// "density"}]}] with PNGs as data: URIs, for each frame that is shown. "frame" is there only along a path; "density"
+/// is a place in "densities", and is absent along a path. A sweep has no techniques.
 [[nodiscard]] Json pagePictures(const CompareResult& result);
 
 } // namespace gnomon::app

@@ -13,8 +13,8 @@ namespace gnomon::app {
 
 using Json = nlohmann::ordered_json;
 
-/// Every setting that has a value and is one of the subcommand's, typed, in the table's order; so a preset. What is
-/// written where is not among them.
+/// Every setting of the subcommand that has a value, typed, in the table's order, so that it is a preset. Settings that
+/// say which files are written are left out.
 [[nodiscard]] Json settingsJson(const Settings& settings, std::uint32_t subcommand);
 /// {"partition": "single", ...}
 [[nodiscard]] Json choicesJson(const Technique& technique);
@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 
 /// One setting as `list` shows it.
 [[nodiscard]] Json settingJson(const Setting& setting);
-/// As it is written; what is no UTF-8, such as some names of files, has U+FFFD in its place.
+/// The JSON as text. U+FFFD replaces bytes that are no UTF-8, such as in some names of files.
 [[nodiscard]] std::string jsonText(const Json& json);
 
 } // namespace gnomon::app

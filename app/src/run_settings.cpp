@@ -109,7 +109,7 @@ bool isArea(const Settings& s)
 {
     return s.truth == truth::Kind::area;
 }
-/// The ray tracer's mask is written as it is, and a plan is worked out but for layers that follow what is drawn.
+/// The ray tracer's mask is written unchanged, and a plan needs no drawing except for layers that follow drawn depths.
 bool draws(const Settings& s)
 {
     if (s.subcommand == kPlan) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is looked at: picture, camera and lights. A new option is one row here.
+// Settings of picture, camera and lights. A new option is one row here.
 #include "object_casting.h"
 #include "setting_rows.h"
 
@@ -64,7 +64,7 @@ void applyOcclusion(Settings& s, const Value& v)
 {
     s.ambient_occlusion = v.text == "auto" ? std::nullopt : std::optional(v.text == "on");
 }
-/// Of a G-buffer and light of the sky. With the ray tracer's masks shading is deferred whatever is said.
+/// Ambient occlusion needs a G-buffer and light of the sky. With the ray tracer's masks shading is always deferred.
 bool mayBeOccluded(const Settings& s)
 {
     const bool deferred = s.shading == host::Shading::deferred || s.truth.has_value();

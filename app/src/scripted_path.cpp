@@ -32,7 +32,7 @@ void shift(host::Eye& eye, const glm::dvec3& by)
     eye.target_ws += by;
 }
 
-/// Never wider than where it starts or the options allow, whichever is more; likewise narrower.
+/// Never wider than the start or the options' limit, whichever is wider, and never narrower than the narrower of both.
 double zoomedFov(double start_rad, double s)
 {
     const double fov = 2.0 * std::atan(std::tan(start_rad / 2.0) * std::exp(-kZoomRate * s));

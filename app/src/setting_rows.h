@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of the one setting table, by what they are about, each in a file *_settings.cpp. settingTable() joins them
-// in this order.
+// The rows of the one setting table, by subject, each in a file *_settings.cpp. settingTable() joins them in this
+// order.
 #pragma once
 
 #include "app/settings.h"

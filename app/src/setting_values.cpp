@@ -25,7 +25,7 @@ std::string rangeText(const Setting& setting)
     return fmt::format("{} to {}{}{}", setting.min, setting.max, setting.unit.empty() ? "" : " ", setting.unit);
 }
 
-/// Of a technique's value that belongs to another choice than the one it was given to.
+/// A hint for a technique's value that belongs to another choice than the one it was given to.
 std::optional<std::string> elsewhere(const Setting& setting, std::string_view text)
 {
     const auto isChoice = [](std::string_view key) {
@@ -38,7 +38,7 @@ std::optional<std::string> elsewhere(const Setting& setting, std::string_view te
         }
     }
     if (names.size() != 1 || !isChoice(setting.key)) {
-        return std::nullopt; // what several have says nothing
+        return std::nullopt; // a value of several choices tells nothing
     }
     return fmt::format(" (--{} has it)", *names.begin());
 }

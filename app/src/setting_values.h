@@ -14,10 +14,10 @@ namespace gnomon::app {
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 /// Throws UsageError.
 [[nodiscard]] SettingValue parseValue(const Setting& setting, std::string_view text);
-/// What such a value is kept and shown as: numbers and flags in one way, however they were typed.
+/// The text in which a value is kept and shown: numbers and flags in one form, however they were typed.
 [[nodiscard]] std::string textOf(const Setting& setting, const SettingValue& value, std::string_view text);
 
-/// Applies it, without a word in Settings::values.
+/// Applies a value without noting it in Settings::values.
 void applyValue(Settings& settings, const Setting& setting, const SettingValue& value);
 
 } // namespace gnomon::app

@@ -48,7 +48,7 @@ std::size_t splitCount(const MomentOptions& moments)
 
 constexpr std::string_view kPlacement = "lvsm.placement";
 
-/// What the options of a filterable map may not be together.
+/// Throws UsageError for options of a filterable map that contradict each other.
 void requireMoments(const Settings& settings)
 {
     const Filter filter = filterOf(settings.shadow);
@@ -66,7 +66,7 @@ void requireMoments(const Settings& settings)
     }
 }
 
-/// Of two settings that say one thing, the value of the other one after this one was applied: as the library has it.
+/// Where two settings say one thing, notes the value that the library has for the other one after this one was applied.
 void noteTakenBack(Settings& settings, const Setting& setting)
 {
     constexpr std::array<std::array<std::string_view, 2>, 5> kPairs{{{"cascades.count", "cascades.ends"},

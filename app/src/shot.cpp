@@ -290,8 +290,8 @@ void stainMaterials(Shot& shot, const Settings& settings)
     }
 }
 
-/// What the scene is like when nothing has moved decides on outlook and ground, whatever the time and the animation.
-/// True: a ground was put in, and the state is to be made anew.
+/// Chooses outlook and ground by the scene at rest, whatever the time and the animation. True: a ground was put in, and
+/// the state is to be made anew.
 bool furnish(Shot& shot, const Settings& settings)
 {
     const bool at_rest = shot.state.time_s == 0.0 && settings.animation.empty();

@@ -9,7 +9,7 @@ namespace gnomon::app {
 /// Sets eye and camera from the settings and the state. Throws UsageError when the named camera is not there.
 void placeEye(Shot& shot, const Settings& settings);
 
-/// What --camera takes, in the order in which it looks: the scene's views, then its placed cameras.
+/// The names that --camera takes, in the order of its search: the scene's views, then its placed cameras.
 [[nodiscard]] std::vector<std::string> cameraNames(const Shot& shot);
 
 } // namespace gnomon::app

@@ -51,7 +51,7 @@ public:
     [[nodiscard]] double flooredShare() const
     {
         constexpr double kSlab = 0.12; // of the height
-        constexpr double kLow = 0.3;   // likewise; above it is a roof
+        constexpr double kLow = 0.3;   // of the height; above it is a roof
         int seen = 0;
         int floored = 0;
         for (std::size_t i = 0; i < lowest_.size(); ++i) {

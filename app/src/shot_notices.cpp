@@ -29,7 +29,7 @@ void noteFrames(Shot& shot, const Settings& settings)
     }
 }
 
-/// What people should know of the lights: said once, not for every frame.
+/// Adds notices about the lights, once and not for every frame.
 void noteLights(Shot& shot, const Settings& settings)
 {
     if (shot.scene.lights.empty() && !settings.placesLights()) {
@@ -52,7 +52,8 @@ void noteLights(Shot& shot, const Settings& settings)
     }
 }
 
-/// Who asks for penumbrae as wide as the light makes them may not know that it makes none. The default takes any light.
+/// Warns when a technique for penumbrae of the light's size is asked for and the light has none. The default takes any
+/// light.
 void noteSizes(Shot& shot, const Settings& settings)
 {
     const std::vector<Settings> techniques =

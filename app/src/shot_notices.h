@@ -11,7 +11,7 @@ namespace gnomon::app {
 /// Why the technique gives the light no shadow; the ray tracer takes every light.
 [[nodiscard]] std::optional<std::string_view> refusalOf(const host::ShadedLight& light, const Settings& settings);
 
-/// Adds to Shot::notices what people should know before they look at the result.
+/// Adds to Shot::notices the facts that people should know before they look at the result.
 void noteWhatSurprises(Shot& shot, const Settings& settings);
 
 } // namespace gnomon::app

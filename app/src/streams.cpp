@@ -44,7 +44,7 @@ int writeTo(int descriptor, std::string_view bytes) noexcept
         if (!waitFor(descriptor)) {
             return EINTR;
         }
-        // A pipe that takes bytes takes so many without blocking.
+        // A pipe that takes bytes takes PIPE_BUF of them without blocking.
         const ssize_t count = ::write(descriptor, bytes.data(), std::min<std::size_t>(bytes.size(), PIPE_BUF));
         if (count < 0 && errno != EINTR && errno != EAGAIN) { // EAGAIN: somebody else has set it not to block
             return errno;

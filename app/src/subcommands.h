@@ -19,7 +19,7 @@ int runView(const Settings& settings);
 int runCompletion(const Settings& settings);
 int runMan(const Settings& settings);
 
-/// To the file, or to stdout for "-" and "".
+/// Writes to the file, or to stdout for "-" and "".
 void writeResult(const std::string& file, std::string_view text);
 
 } // namespace gnomon::app

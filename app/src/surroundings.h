@@ -9,8 +9,8 @@
 
 namespace gnomon::app {
 
-/// The objects without the largest ones, where all of the others together are small beside each of those, lie amid
-/// them and have more triangles. Looked at as a whole, such a scene would be its surroundings. In order of size.
+/// The objects without the largest ones, where all of the others together are small beside each of those, lie amid them
+/// and have more triangles. A view of such a whole scene would show only its surroundings. In order of size.
 [[nodiscard]] std::vector<const scene::Object*> withoutSurroundings(const scene::Scene& scene,
                                                                     std::vector<const scene::Object*> objects);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One setting takes many values, and every technique is held against the same truth at each: error over value. Where
+// One setting takes many values, and every technique is compared with the same truth at each: error over value. Where
 // the setting is not the technique's, the shot and its truth are made anew for each value.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace gnomon::app {
 
-/// What a sweep draws, worked out and checked before anything is drawn.
+/// The plan of a sweep, made and checked before anything is drawn.
 struct SweepPlan {
     struct Line {
         std::string technique;        // without the setting that is swept
@@ -42,7 +42,7 @@ struct SweepPlan {
 struct SweepResult {
     struct Point {
         std::optional<lab::ErrorNumbers> error;  // absent when no pixel counts
-        std::optional<lab::ClassErrors> classes; // likewise
+        std::optional<lab::ClassErrors> classes; // absent when no pixel counts
         Outcome outcome;
     };
     /// The same for all techniques.
@@ -55,7 +55,7 @@ struct SweepResult {
     std::vector<std::vector<Point>> points; // by line and value
     std::vector<Place> places;              // by value; the first one alone where the shot is not made anew
 };
-/// What holds at a value, by its index. Asked for in order, each once; must hold until the next is asked for.
+/// The light and truth at a value, by its index. Called once for each in order; a result must hold until the next call.
 using JudgedAt = std::function<const Judged&(std::size_t value)>;
 /// `step` is called after every technique drawn and may throw to stop.
 [[nodiscard]] SweepResult runSweep(const host::SceneOnGpu& scene, SweepPlan plan, const JudgedAt& judged_at,

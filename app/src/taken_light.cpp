@@ -50,7 +50,7 @@ double meets(const Triangle& triangle, const glm::dvec3& from, const glm::dvec3&
     return inside ? glm::dot(b, q) / determinant : kInfinity;
 }
 
-/// An object, or all of a node: what takes light together.
+/// An object, or all objects of a node, which may together take all of a light.
 struct Taker {
     std::vector<std::uint32_t> objects; // ascending
     Aabb bounds_ws;
@@ -69,7 +69,7 @@ public:
         listTakers();
     }
 
-    /// What takes all of a light; null where nothing does.
+    /// The taker of all of a light; null where there is none.
     [[nodiscard]] const Taker* takerOf(const Light& light)
     {
         for (const Taker& taker : takers_) {
@@ -267,7 +267,7 @@ bool Search::takesAll(const Taker& taker, const Light& light)
     if (points.empty()) {
         return false;
     }
-    points.push_back(shot_.eye.position_ws); // who is inside looks at what is lit
+    points.push_back(shot_.eye.position_ws); // a camera inside sees lit surfaces
     const auto isDarkInTime = [&](const glm::dvec3& p) {
         return tests_ <= kMostTests && isDark(p, light);
     };

@@ -26,7 +26,7 @@ std::string_view contentOf(std::string_view line)
                                            : line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
 }
 
-/// What no technique has in it, as people are told; empty where there is none.
+/// The message for a line that cannot be a technique; empty where it may be one.
 std::string_view whatIsWrong(std::string_view technique)
 {
     if (technique.size() > kLongestTechnique) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON of what is known of a technique, a camera and a light, for every result file alike. Key order is fixed; a number
-// that is absent or not finite is null.
+// JSON of a technique, a camera and a light, the same for every result file. Key order is fixed; a number that is
+// absent or not finite is null.
 #pragma once
 
 #include "app/settings.h"
@@ -40,11 +40,11 @@ struct Stage {
 [[nodiscard]] double frameMedian(const std::vector<host::FrameTimes>& samples);
 [[nodiscard]] std::uint64_t totalBytes(const MemoryByPurpose& memory);
 
-/// What the device did not measure of these frames, as sentences; empty when it measured all.
+/// Sentences about measurements that the device lacks for these frames; empty when it measured all.
 [[nodiscard]] std::vector<std::string> notMeasured(const std::vector<host::FrameTimes>& samples);
 
-/// PREFIXtime_ms and PREFIXiqr_ms: {"plan", "maps", "filter", "mask", "frame"}; null is what is not measured, and the
-/// range of one sample.
+/// PREFIXtime_ms and PREFIXiqr_ms: {"plan", "maps", "filter", "mask", "frame"}; null for stages that are not measured,
+/// and for the range of one sample.
 void addTimes(Json& json, const std::string& prefix, const std::vector<host::FrameTimes>& samples);
 /// "memory_bytes" and "memory_by_purpose_bytes".
 void addMemory(Json& json, const MemoryByPurpose& memory);
@@ -53,7 +53,7 @@ void addMemory(Json& json, const MemoryByPurpose& memory);
 [[nodiscard]] Json mapJson(const MapPages& atlas, const ShadowOptions& options);
 /// Every pass of the host and the library in order: [{"name", "ms", "iqr_ms", "share", counts, "texels",
 /// "bytes_minimum"}]. Passes of one name are one, as the stages are. Null: iqr_ms of one sample, share where the clock
-/// measured no frame, times and counts that the device did not give, and what is not defined for the pass.
+/// measured no frame, times and counts that the device did not give, and members that are not defined for the pass.
 [[nodiscard]] Json passesJson(const lab::Timed& timed);
 /// A count of each pass by its name in results.
 struct PassCount {
@@ -64,19 +64,19 @@ struct PassCount {
 [[nodiscard]] std::span<const PassCount> passCounts();
 /// How the maps of cascades were drawn when these times were taken; nothing where there are none, or never two at once.
 [[nodiscard]] std::optional<CascadePass> cascadePassOf(const lab::Timed& timed);
-/// That, by its name, or null.
+/// The name of cascadePassOf(), or null.
 [[nodiscard]] Json cascadePassJson(const lab::Timed& timed);
-/// Bytes that the blur moved by the least that it needs; 0 where nothing is blurred.
+/// The bytes that the blur moved divided by the least that it needs; 0 where nothing is blurred.
 [[nodiscard]] double filterRatio(const vulkan::FilterCost& filter);
 [[nodiscard]] Json countersJson(const lab::Counters& counters);
-/// What frames drew of their maps, and what they did not have to: vulkan::MapReuse, a row each, means per frame.
+/// How many maps and objects frames drew, kept or culled: a row for each member of vulkan::MapReuse, means per frame.
 struct ReuseCounter {
     std::string_view name; // in JSON
     std::string_view title;
     double mean = 0.0;
 };
 [[nodiscard]] std::vector<ReuseCounter> reuseCounters(const std::vector<host::FrameTimes>& samples);
-/// Those, by name.
+/// reuseCounters() by name.
 [[nodiscard]] Json reuseJson(const std::vector<host::FrameTimes>& samples);
 /// {"rmse", "mae", "bias", "p99", "edge", "acne", "detached", "bleeding", "terminator"}, with `more` before the
 /// classes; null where no pixel counts.
@@ -90,22 +90,22 @@ template <typename T>
 }
 /// {"p01", "p50", "p99", "pixels": {"counted", "left_out"}}; percentiles are null when no pixel counts.
 [[nodiscard]] Json densityJson(const lab::TexelDensity& density);
-/// Median frame by that without shadows; null where the clock measured none.
+/// The median frame divided by that without shadows; null where the clock measured none.
 [[nodiscard]] Json frameRatioJson(const lab::Timed& technique);
 /// Null when no pixel counts.
 [[nodiscard]] Json fitEfficiencyJson(const lab::TexelDensity& density, double fit_efficiency);
 /// Units of the keys that do not name theirs and that every result has.
 [[nodiscard]] Json sharedUnitsJson();
-/// The settings of one technique, as a preset has them: without what follows from others (the filter's own format, the
-/// border that a kernel needs, which differ between techniques) and without where the result went.
+/// The settings of one technique, as a preset has them: without values that follow from others (the filter's own
+/// format, the border that a kernel needs, which differ between techniques) and without the place of the result.
 [[nodiscard]] Json repeatJson(const Settings& settings, std::uint32_t subcommand);
-/// Those that make the whole run again: with the scene, its hash and the list of techniques too.
+/// The settings that repeat the whole run: with the scene, its hash and the list of techniques too.
 [[nodiscard]] Json runJson(const Settings& settings, std::string_view scene_hash, std::uint32_t subcommand);
 /// {"name", "frames": {"first", "last"}, "fps", "speed"}. Precondition: there is a --path.
 [[nodiscard]] Json pathJson(const Settings& settings);
 /// Where the picture is taken from, resolved; near_m and far_m are 0 where the scene's size decides.
 [[nodiscard]] Json eyeJson(const host::Eye& eye);
-/// The light, resolved: what has no meaning for its type is left out.
+/// The light, resolved: members without meaning for its type are left out.
 [[nodiscard]] Json lightJson(const host::ShadedLight& light);
 
 } // namespace gnomon::app

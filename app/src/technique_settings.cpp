@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a technique is made of: the rows of the library's option table (gnomon/option_table.h), as settings of the
-// program. The library says their keys, ranges, units and defaults; here stands only what the program adds to them.
+// Settings of a technique: the rows of the library's option table (gnomon/option_table.h) as settings of the program.
+// The library has their keys, ranges, units and defaults; this file has only what the program adds.
 #include "setting_rows.h"
 #include "setting_values.h"
 #include "technique_text.h"

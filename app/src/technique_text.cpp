@@ -29,8 +29,9 @@ const ChoiceValue* findTechniqueValue(std::string_view name)
     return nullptr;
 }
 
-/// What is joined by + in a technique. `auto` alone stands for that of partition and fit, and of the filter where no
-/// other one is named; `smoothies` for the filter where neither another one nor `auto` is named, else for soften's.
+/// The pieces that + joins in a technique. `auto` alone stands for the value of partition and fit, and of the filter
+/// where no other one is named. `smoothies` stands for the filter where neither another one nor `auto` is named, else
+/// for soften's value.
 std::vector<std::string_view> piecesOf(std::string_view text)
 {
     const std::vector<std::string_view> written = split(text, '+');

@@ -10,12 +10,13 @@
 
 namespace gnomon::app {
 
-/// A setting of a technique and what it is set to. Both live as long as the text and the program.
+/// A setting of a technique and its value. Both live as long as the text and the program.
 struct TechniquePart {
     std::string_view key;
     std::string_view value;
 };
-/// In the order of the text. Throws UsageError for what is no part of a technique, and for what is there twice.
+/// The parts in the order of the text. Throws UsageError for a piece that is no part of a technique, and for a repeated
+/// one.
 [[nodiscard]] std::vector<TechniquePart> techniqueParts(std::string_view text);
 
 /// Applies the parts and nothing else. Throws UsageError.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ray tracer's masks for `render`, and what is to be said of them.
+// The ray tracer's masks for `render`, with their notices and summary.
 #pragma once
 
 #include "app/shot.h"
@@ -41,7 +41,7 @@ private:
     std::uint64_t from_cache_ = 0;
     std::uint64_t rays_ = 0;
     double seconds_ = 0.0;
-    // Of all pixels that see a surface.
+    // Over all pixels that see a surface.
     double squared_error_ = 0.0;
     std::uint64_t pixels_ = 0;
 };

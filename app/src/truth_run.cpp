@@ -17,7 +17,7 @@ struct TruthTracer::Impl {
     const Settings& settings;
     std::optional<truth::Cache> cache;
     bool stores = true;
-    // Of the shot's present moment, made when first needed.
+    // The tracer of the shot's present moment, made when first needed.
     std::optional<truth::Tracer> tracer;
     std::optional<truth::Surfaces> surfaces;
 

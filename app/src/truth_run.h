@@ -20,7 +20,7 @@ struct TruthRun {
 
 class TruthTracer {
 public:
-    /// Of --truth, --samples, --seed and --no-cache; a progress bar runs on stderr while rays do. Precondition:
+    /// Traces by --truth, --samples, --seed and --no-cache, with a progress bar on stderr. Precondition:
     /// settings.truth. `shot` outlives the tracer.
     TruthTracer(const Shot& shot, const Settings& settings);
     ~TruthTracer();
@@ -33,8 +33,8 @@ public:
     /// light that the cache does not have. A cache that cannot be written is a notice, once; it is read all the same.
     /// Throws Interrupted; Error when memory runs out.
     [[nodiscard]] TruthRun trace(std::size_t light);
-    /// The surfaces that trace() gave, from whoever needs them no more: the next light of the same moment is traced
-    /// from them, where it would have to look for them again.
+    /// Takes back the surfaces that trace() gave, once they are not needed. The next light of the same moment reuses
+    /// them instead of finding them again.
     void takeBack(truth::Surfaces surfaces);
 
 private:
@@ -42,7 +42,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// By --truth, --samples, --truth-pixels and --seed.
+/// The options that --truth, --samples, --truth-pixels and --seed give.
 [[nodiscard]] truth::Options truthOptions(const Settings& settings);
 
 /// Whether the light is so small that area truth is the same as hard.

@@ -8,7 +8,7 @@
 
 namespace gnomon::app {
 
-/// That lights waited for their maps to be drawn, and for how long; nothing where none did.
+/// A note that lights waited for their maps to be drawn, and for how long; nothing where none did.
 [[nodiscard]] std::optional<std::string> waitNote(const lab::Waits& waits);
 
 } // namespace gnomon::app

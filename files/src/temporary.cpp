@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kNames = 100; // as many processes may make one file at a time
-constexpr int kGap = 8;     // so many free names in a row: no more are taken
+constexpr int kGap = 8;     // after this many free names in a row no more are taken
 
 fs::path nameOf(const fs::path& target, int n)
 {
@@ -76,7 +76,7 @@ bool removedAll(const fs::path& path, Temporary::Kind kind) noexcept
     }
 }
 
-/// Whether the name was left by a killed process and is now free. Who holds the lock alone may remove or rename.
+/// Whether the name was left by a killed process and is now free. Only the holder of the lock may remove or rename.
 bool removedStale(const fs::path& path, Temporary::Kind kind)
 {
     const int descriptor = openExisting(path, kind);

@@ -5,7 +5,7 @@
 
 namespace gnomon {
 
-/// Throws the Error of a file that cannot be written, with what can be done where that is known; ClosedPipe for EPIPE.
+/// Throws the Error of a file that cannot be written, with advice where there is some; ClosedPipe for EPIPE.
 [[noreturn]] void failWriting(const std::filesystem::path& file, int error);
 
 } // namespace gnomon

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How bright an eye that is used to some light finds a picture. Both GLSL and C++.
-// Based on: G. Krawczyk, K. Myszkowski, H.-P. Seidel, "Perceptual Effects in Real-time Tone Mapping", 2005,
-// equation 11.
+// The brightness of a picture to an eye adapted to its light. Both GLSL and C++. Based on: G. Krawczyk, K. Myszkowski,
+// H.-P. Seidel, "Perceptual Effects in Real-time Tone Mapping", 2005, equation 11.
 #ifndef HOST_ADAPTATION_H
 #define HOST_ADAPTATION_H
 #include "gnomon/shared/portability.h"

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of the sky's light reaches a point between surfaces that are in the picture.
-// Based on: J. Jimenez, X. Wu, A. Pesce, A. Jarabo, "Practical Realtime Strategies for Accurate Indirect Occlusion",
-// 2016: along slices through the view direction the highest thing to both sides (horizon) is searched, the light
-// between the two is integrated in closed form with its cosine, and light that bounces is a polynomial in the albedo.
-// S. Lagarde, C. de Rousiers, "Moving Frostbite to Physically Based Rendering", 2014 (specular occlusion).
-// Both GLSL and C++.
+// The share of the sky's light that reaches a point between surfaces of the picture. Based on: J. Jimenez, X. Wu, A.
+// Pesce, A. Jarabo, "Practical Realtime Strategies for Accurate Indirect Occlusion", 2016: along slices through the
+// view direction the highest thing to both sides (horizon) is searched, the light between the two is integrated in
+// closed form with its cosine, and light that bounces is a polynomial in the albedo. S. Lagarde, C. de Rousiers,
+// "Moving Frostbite to Physically Based Rendering", 2014 (specular occlusion). Both GLSL and C++.
 //
-// One departure: a slice is divided by what it would have without occluders, where the article divides all slices by
-// their number. The limit is the same, and a plane is 1 in every slice, however few there are.
+// One departure: a slice is divided by its light without occluders, where the article divides all slices by their
+// number. The limit is the same, and a plane is 1 in every slice, however few there are.
 #ifndef GNOMON_AMBIENT_OCCLUSION_H
 #define GNOMON_AMBIENT_OCCLUSION_H
 #include "gnomon/shared/portability.h"
@@ -18,7 +17,7 @@ using glm::acos, glm::atan;
 
 GN_CONST real kOcclusionHalfPi = real(1.57079632679489662);
 GN_CONST real kOcclusionWhole = real(0.5);      // share of the radius within which an occluder counts in full
-GN_CONST real kOcclusionThickness = real(0.05); // how fast a horizon sinks again behind what is thin, per step
+GN_CONST real kOcclusionThickness = real(0.05); // how fast a horizon sinks again behind a thin thing, per step
 GN_CONST int kOcclusionSlices = 2;              // of a pixel; at right angles
 GN_CONST int kOcclusionSteps = 8;               // of a slice, to each side
 
@@ -36,7 +35,7 @@ GN_FN real occluderWeight(real distance, real radius)
     return clamp((radius - distance) / (radius * (real(1.0) - kOcclusionWhole)), real(0.0), real(1.0));
 }
 
-// The highest cosine to the view direction after one more sample of this cosine. What is lower lets the horizon sink,
+// The highest cosine to the view direction after one more sample of this cosine. A lower sample lets the horizon sink,
 // because the thing before it may be thin.
 GN_FN real raisedHorizon(real horizon, real cosine, real thickness)
 {
@@ -52,8 +51,7 @@ GN_FN real ownHorizon(real along, real up)
 
 // The cosine to the view direction of a sample that rises above the surface. `own`: ownHorizon(); `rise`: the cosine
 // between normal and the way to the sample, over the length of the normal's part in the slice. Samples lie at middles
-// of pixels and so beside their slice: by how they rise, and not by where they are, those on a plane are on its
-// horizon.
+// of pixels and so beside their slice. Their rise, unlike their place, puts samples of a plane on its horizon.
 GN_FN real risenHorizon(real own, real rise)
 {
     real up = clamp(rise, real(0.0), real(1.0));
@@ -67,8 +65,8 @@ GN_FN real arcLight(real horizon, real gamma)
     return real(0.25) * (cos(gamma) - cos(real(2.0) * horizon - gamma) + real(2.0) * horizon * sin(gamma));
 }
 
-// Of one slice: the light it receives (x), and what it would without occluders (y). `along`, `up` as in ownHorizon();
-// `cosines`: of the horizons to the positive (x) and negative side.
+// The light that one slice receives (x), and its light without occluders (y). `along` and `up` are as in ownHorizon();
+// `cosines` are those of the horizons to the positive (x) and negative side (y).
 GN_FN real2 sliceLight(real along, real up, real2 cosines)
 {
     real part = sqrt(along * along + up * up);
@@ -88,8 +86,8 @@ GN_FN real bouncedOcclusion(real seen, real albedo)
     return max(seen, ((seen * a + b) * seen + c) * seen);
 }
 
-// Of what is mirrored: a smooth surface sees a small part of the sky, a rough one nearly all. `n_v`: cosine between
-// normal and view direction.
+// The share of mirrored light: a smooth surface sees a small part of the sky, a rough one nearly all. `n_v`: cosine
+// between normal and view direction.
 GN_FN real specularOcclusion(real seen, real n_v, real roughness)
 {
     real power = exp2(real(-16.0) * roughness - real(1.0));

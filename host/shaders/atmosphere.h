@@ -38,7 +38,7 @@ GN_FN Air airAt(real height_km)
     return air;
 }
 
-// Of scattering by an angle of cosine `c`, per steradian.
+// The phase function of scattering by an angle of cosine `c`, per steradian.
 GN_FN real moleculesPhase(real c)
 {
     return real(0.75) * kQuarterOverPi * (real(1.0) + c * c);
@@ -51,14 +51,15 @@ GN_FN real dustPhase(real c)
     return real(1.5) * kQuarterOverPi * (real(1.0) - g2) / (real(2.0) + g2) * (real(1.0) + c * c) / (base * sqrt(base));
 }
 
-// A ray from `radius_km` from the earth's centre, upwards by the sine `up`, to where it leaves the air.
+// The length of a ray to where it leaves the air. It starts `radius_km` from the earth's centre and rises by the sine
+// `up`.
 GN_FN real toTheTop_km(real radius_km, real up)
 {
     real top = kEarth_km + kAir_km;
     real b = radius_km * up;
     return max(-b + sqrt(max(b * b + top * top - radius_km * radius_km, real(0.0))), real(0.0));
 }
-// To the ground; negative where it passes it by.
+// The length of a ray to the ground; negative where it misses the ground.
 GN_FN real toTheGround_km(real radius_km, real up)
 {
     real b = radius_km * up;
@@ -79,7 +80,7 @@ GN_FN real2 skyTableDirection(real2 place)
     return real2(place.y * place.y, real(1.0) - real(2.0) * place.x * place.x);
 }
 
-// What lies below the horizon takes on the ground's colour slowly and never wholly, as in haze.
+// The share of the ground's colour below the horizon, which grows slowly and never to 1, as in haze.
 GN_FN real groundShare(real up)
 {
     real t = clamp(-up / real(0.8), real(0.0), real(1.0));

@@ -38,8 +38,8 @@ GN_FN real bloomCalm(real3 mean)
     return real(1.0) / (real(1.0) + max(mean.x, max(mean.y, mean.z)));
 }
 
-// Of the bilinear taps of a halving that lie `x`, `y` texels from its middle: each box of 4 x 4 is four of them.
-// Even distances (0, 2) belong to the corner boxes, odd ones to the centre's.
+// The weight of a halving's bilinear tap `x`, `y` texels from its middle. Each box of 4 x 4 is four taps. Even
+// distances (0, 2) belong to the corner boxes, odd ones to the centre's.
 GN_FN real bloomTap(int x, int y)
 {
     if (x == 1 || x == -1) {
@@ -50,7 +50,7 @@ GN_FN real bloomTap(int x, int y)
     return kBloomCorner / real(4.0) * along_x * along_y;
 }
 
-// Of the 3 x 3 taps of the tent; `x`, `y` in -1 .. 1.
+// The weights of the tent's 3 x 3 taps; `x`, `y` in -1 .. 1.
 GN_FN real bloomTent(int x, int y)
 {
     real along_x = x == 0 ? real(2.0) : real(1.0);

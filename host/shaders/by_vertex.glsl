@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers that are the same for all fragments of a draw, from the vertex shader. lavapipe 22.3 loads a uniform in a
-// fragment shader with a branch for each of its numbers, for every few pixels: half of the time of such a shader. Of an
-// attribute that is flat it loads them once for a triangle. Other devices read uniforms.
+// fragment shader with a branch for each of its numbers, for every few pixels: half of the time of such a shader. It
+// loads a flat attribute once for a triangle. Other devices read uniforms.
 #ifndef HOST_BY_VERTEX_GLSL
 #define HOST_BY_VERTEX_GLSL
 
 layout(constant_id = 20) const bool kInSoftware = false;
 layout(constant_id = 21) const bool kDrawsSky = false; // of screen.vert
 
-// Of scene.vert, from location 5 on.
+// The numbers from scene.vert, from location 5 on.
 const int kSceneRayX = 0;
 const int kSceneRayY = 1;
 const int kSceneRay0 = 2;
@@ -19,7 +19,7 @@ const int kScenePlaceU = 6;  // ::places[0]
 const int kScenePlaceV = 7;
 const int kSceneNumberCount = 8;
 
-// Of screen.vert, from location 0 on.
+// The numbers from screen.vert, from location 0 on.
 const int kScreenRayX = 0;
 const int kScreenRayY = 1;
 const int kScreenRay0 = 2;

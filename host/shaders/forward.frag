@@ -48,7 +48,7 @@ layout(location = 3) in vec4 colour;
 layout(location = 4) flat in uvec3 ids; // as scene.vert has them
 layout(location = 0) out vec4 out_light;
 
-// What reaches the surface of a light. `own_tint`: of gnomonLightColour().
+// The share of a light that reaches the surface. `own_tint` is an argument of gnomonLightColour().
 vec3 seenBy(uint light, vec3 p, Surface surface, vec3 own_tint)
 {
 #ifdef SHADOWED

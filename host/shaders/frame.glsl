@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every pass of a frame reads. Positions are relative to the eye: world space moved, not turned.
+// Numbers that every pass of a frame reads. Positions are relative to the eye: world space moved, not turned.
 #ifndef HOST_FRAME_GLSL
 #define HOST_FRAME_GLSL
 
@@ -23,10 +23,10 @@ layout(set = 0, binding = 0, std140) uniform FrameData
     vec4 ray_y;
     vec4 ray_0;
     vec4 depth; // perspective: 1 / view depth = x * stored depth + y; z: 1 when there is a mask; w: light of lit windows
-    // Of a surface's normal: for red, green and blue a row of (x, y, z, 1), for each one of (xy, yz, yy, xz), and times
-    // xx - zz; w of the last: exposure of what is emitted.
+    // The sky's light by a surface's normal: for red, green and blue a row of (x, y, z, 1) each, then one of (xy, yz,
+    // yy, xz) each, then the factors of xx - zz; w of the last: exposure of emitted light.
     vec4 skylight[7];
-    vec4 sky[7];  // what the pass that draws the sky reads: sky_numbers.glsl
+    vec4 sky[7];  // for the pass that draws the sky: sky_numbers.glsl
     uvec4 counts; // x: lights
     LightData lights[kMaxLights];
 }

@@ -98,7 +98,7 @@ vec3 arriving(LightData light, vec3 p, sampler2DArray cookies, out vec3 l)
     return e;
 }
 
-// What sky and ground give a white surface that faces this way (Skylight::on).
+// The light of sky and ground on a white surface that faces this way (Skylight::on).
 vec3 hemisphere(vec3 n)
 {
     vec4 linear = vec4(n, 1.0);

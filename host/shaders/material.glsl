@@ -4,7 +4,7 @@
 #define HOST_MATERIAL_GLSL
 #include "material_data.glsl"
 
-// What the pipeline's materials need, so that plain ones pay for nothing.
+// The parts that the pipeline's materials need, so that plain ones pay for nothing.
 layout(constant_id = 0) const bool kBaseTexture = false;
 layout(constant_id = 1) const bool kEmits = false; // some material of the scene does
 layout(constant_id = 2) const bool kAllTextures = false;

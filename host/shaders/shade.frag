@@ -44,7 +44,7 @@ vec3 seenOf(uint i)
     return (slot & 4) != 0 ? texel.rgb : vec3(texel[slot & 3]);
 }
 
-// Light of the sky. What the material says of its own creases and what the picture shows of them is often the same.
+// Light of the sky. A material's own occlusion and that found in the picture often stand for the same creases.
 vec3 ambientHere(Lit s, float roughness, float own_occlusion, float view_depth)
 {
     if (!kOccluded) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a light of the frame adds to a surface. As constants what pipelines know of a frame's lights and materials.
+// The light that a light of the frame adds to a surface. Facts about a frame's lights and materials are constants.
 #ifndef HOST_SHADED_LIGHTS_GLSL
 #define HOST_SHADED_LIGHTS_GLSL
 #include "lighting.glsl"
 
-// Of the frame's lights, when there are few: unrolled loops read uniforms at fixed places, which a software rasteriser
-// does once for all pixels. 0: any number.
+// The number of the frame's lights when they are few: unrolled loops read uniforms at fixed places, which a software
+// rasteriser does once for all pixels. 0: any number.
 layout(constant_id = 4) const int kFixedLights = 0;
 layout(constant_id = 5) const bool kDirectionalOnly = false;
 layout(constant_id = 6) const bool kPhysicalOnly = false; // every surface is metallic-roughness

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pass that shades writes.
+// The output of a pass that shades.
 #ifndef HOST_SHOWN_GLSL
 #define HOST_SHOWN_GLSL
 #include "tone.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A sky of air, of the sun and by night of the moon, from the tables of host/src/sky_table.h; their discs, and stars.
-// What is below the horizon is ground in haze. OVER_SURFACE: laid over a surface that fades into it.
+// Below the horizon is ground in haze. OVER_SURFACE: laid over a surface that fades into it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
@@ -10,7 +10,7 @@
 #include "shown.glsl"
 #include "atmosphere.h"
 
-// For each body what molecules and many scatterings give, and what dust gives but for its phase.
+// For each body the light of molecules and many scatterings, and that of dust without its phase.
 layout(set = 0, binding = 8) uniform sampler2DArray sky_tables;
 // There are a moon or stars. A software rasteriser goes through all that a shader might do.
 layout(constant_id = 22) const bool kNight = false;

@@ -19,7 +19,7 @@ vec3 encodeSrgb(vec3 c)
 
 float luma(vec3 encoded) { return dot(encoded, vec3(0.2126, 0.7152, 0.0722)); }
 
-// What is written for a pixel; alpha holds the luma, for the pass that smooths edges. Each channel has noise of its own.
+// The output for a pixel; alpha holds the luma, for the pass that smooths edges. Each channel has noise of its own.
 vec4 encoded(vec3 toned, vec2 pixel)
 {
     vec3 c = encodeSrgb(toned);

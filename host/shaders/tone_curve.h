@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From linear radiance to what a screen can show, and the noise that hides the steps between its values.
-// Both GLSL and C++.
+// The curve from linear radiance to a screen's values, and the noise that hides the steps between them. Both GLSL and
+// C++.
 #ifndef GNOMON_TONE_CURVE_H
 #define GNOMON_TONE_CURVE_H
 #include "gnomon/shared/portability.h"
@@ -14,14 +14,13 @@ GN_FN real3 filmicTone(real3 x)
 }
 
 GN_CONST real kNeutralGain = real(1.3);   // brings a lit grey to where filmicTone() has it
-GN_CONST real kNeutralToe = real(0.02);   // what is taken off, so that haze does not make shade grey
+GN_CONST real kNeutralToe = real(0.02);   // subtracted, so that haze does not make shade grey
 GN_CONST real kNeutralStart = real(0.76); // of the compression
-GN_CONST real kNeutralPale = real(0.15);  // how fast what is too bright loses its colour
+GN_CONST real kNeutralPale = real(0.15);  // how fast too bright light loses its colour
 
 // ToneCurve::neutral: Khronos Group, "Khronos PBR Neutral Tone Mapper", 2024. The largest channel goes through a curve
-// and takes the others along, so a hue stays what it is; what is very bright goes to white. Two departures: the gain,
-// and half of the toe, which is 0.04 there for rooms of white light and makes colours garish in the shade of a scene
-// with a sun.
+// and takes the others along, so hues stay; very bright light goes to white. Two departures: the gain, and half of the
+// toe, which is 0.04 there for rooms of white light and makes colours garish in the shade of a scene with a sun.
 GN_FN real3 neutralTone(real3 light)
 {
     real3 x = light * kNeutralGain;

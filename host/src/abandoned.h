@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What belongs to a device that was abandoned.
+// Objects of a device that was abandoned.
 #pragma once
 
 #include <memory>
 
 namespace gnomon::host {
 
-/// Never destroyed, and still reachable, so that it is not taken for a leak.
+/// Keeps an object for ever, reachable, so that it does not count as a leak.
 template <class Whole>
 void keepForGood(std::unique_ptr<Whole> whole) noexcept
 {

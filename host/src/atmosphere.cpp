@@ -85,7 +85,7 @@ public:
         fillManifold();
     }
 
-    /// What gets from outside to a place, of a light whose disc may be cut by the horizon there.
+    /// The share of a light from outside that reaches a place, where the horizon may cut the light's disc.
     [[nodiscard]] glm::dvec3 through(double radius, double up) const
     {
         const double rho = std::sqrt(std::max(radius * radius - kEarth_km * kEarth_km, 0.0));
@@ -100,7 +100,7 @@ public:
         const double t = toTheTop_km(radius, seen);
         return through_.at((t - shortest) / (longest - shortest), rho / kWidest_km) * shown;
     }
-    /// What has been scattered more than once, as it comes from everywhere.
+    /// The light that was scattered more than once, which comes from everywhere.
     [[nodiscard]] glm::dvec3 manifold(double radius, double up) const
     {
         const double angle = std::asin(std::clamp(up, -1.0, 1.0));

@@ -22,21 +22,21 @@ struct Skylight {
     [[nodiscard]] glm::dvec3 on(const glm::dvec3& normal) const;
     /// Adds another, made stronger by a colour.
     void add(const Skylight& other, const glm::dvec3& times);
-    /// Adds what comes from everywhere below the horizon with this radiance.
+    /// Adds light of this radiance from everywhere below the horizon.
     void addGround(const glm::dvec3& radiance);
-    /// Likewise from above it.
+    /// Adds light of this radiance from everywhere above the horizon.
     void addSky(const glm::dvec3& radiance);
-    /// Turned about the vertical, so that what was along +x is along (x, z), of any length.
+    /// The light turned about the vertical, so that +x goes to (x, z), of any length.
     [[nodiscard]] Skylight turned(double x, double z) const;
 };
 
-/// Under a light of 1 outside the air, of each colour.
+/// The sky under a light of 1 outside the air, of each colour.
 struct SkyUnder {
     static constexpr std::size_t across = 32; // azimuths, of skyTablePlace().x
     static constexpr std::size_t up = 40;     // heights, of .y
     using Table = std::array<glm::vec3, across * up>;
-    Table molecules;         // radiance but for what dust scatters once
-    Table dust;              // that, but for its phase; per steradian
+    Table molecules;         // radiance without light that dust scatters once
+    Table dust;              // light that dust scatters once, without its phase; per steradian
     double largest = 1.0;    // number in both
     glm::dvec3 direct{0.0};  // illuminance of a surface that is square to the light
     glm::dvec3 diffuse{0.0}; // of level ground, by the sky alone

@@ -11,7 +11,7 @@
 
 namespace gnomon::host {
 
-/// How many halvings a picture of this size has: until its shorter side has no two texels left, one at least.
+/// The number of halvings of a picture of this size: until its shorter side has fewer than two texels, one at least.
 [[nodiscard]] std::uint32_t bloomLevels(VkExtent2D shown, std::uint32_t wanted);
 
 /// Read by compute shaders too.
@@ -37,7 +37,7 @@ private:
         VkPipeline pipeline = VK_NULL_HANDLE;
         VkDescriptorSet set = VK_NULL_HANDLE;
         std::size_t target = 0; // level
-        bool adds = false;      // to what the level holds
+        bool adds = false;      // to the level's content
     };
     void makeImages(Memory& memory, VkExtent2D shown, std::uint32_t count);
     void makeLayouts();

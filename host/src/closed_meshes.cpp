@@ -23,7 +23,7 @@ bool isOpaque(const scene::Scene& scene, const scene::Mesh& mesh)
     });
 }
 
-/// What keeps an object's shadow from having its mesh's outline.
+/// The reason why an object's shadow does not have its mesh's outline.
 Fault outlineFaultOf(const scene::Scene& scene, const scene::Object& object)
 {
     const scene::AlphaMode alpha = alphaOf(scene, object.material);

@@ -16,7 +16,7 @@ namespace gnomon::host {
 /// Are all edges of the mesh, over all its primitives, shared by as many triangles one way as the other? Vertices in
 /// one place count as one, whatever their normals and texture coordinates. False without triangles.
 [[nodiscard]] bool isClosed(const scene::Mesh& mesh);
-/// By mesh of the scene.
+/// isClosed() of each mesh of the scene.
 [[nodiscard]] std::vector<bool> closedMeshes(const scene::Scene& scene);
 [[nodiscard]] std::vector<scene::MeshClosure> closures(const scene::Scene& scene);
 /// As closedObjects() in host/view.h.

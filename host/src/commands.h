@@ -17,15 +17,16 @@ public:
     Commands(const Commands&) = delete;
     Commands& operator=(const Commands&) = delete;
 
-    /// Precondition: what was submitted has been waited for.
+    /// Precondition: wait() was called for the last submission.
     VkCommandBuffer begin();
-    /// Once all of `waits` are signalled; `signals` are when it is done. Throws Error (lost device).
+    /// Submits the commands, which begin once all of `waits` are signalled and signal `signals` at their end. Throws
+    /// Error (lost device).
     void submit(std::span<const VkSemaphoreSubmitInfo> waits = {}, std::span<const VkSemaphoreSubmitInfo> signals = {});
-    /// Until the GPU has finished what was submitted; at once when nothing was. Throws as waitFor().
+    /// Waits until the GPU has finished the submission; returns at once when there is none. Throws as waitFor().
     void wait();
-    /// The same for destructors: see settle() in wait.h.
+    /// wait() for destructors: see settle() in wait.h.
     void settle() noexcept;
-    /// Both.
+    /// submit() and wait().
     void finish();
 
 private:
@@ -43,7 +44,7 @@ struct Access {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED; // images only
 };
 inline constexpr Access kDiscard{}; // of an image that was never used
-/// Of an image whose content is not wanted any more, once those have finished who read it last or copied it.
+/// The access before an image's content is discarded: waits for the last `read` and for copies.
 constexpr Access discardAfter(const Access& read)
 {
     return {read.stages | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED};
@@ -90,9 +91,9 @@ public:
     void toImage(const Image& target, std::uint32_t layer, const void* texels, std::uint32_t texel_bytes);
     /// Makes the smaller mips of a one-layer image by halving, and all of it readable by shaders.
     void finishImage(const Image& image);
-    /// Hands over what is left. All that is submitted afterwards sees it; nothing else may be uploaded.
+    /// Submits the remaining uploads. All that is submitted afterwards sees them; nothing else may be uploaded.
     void submit();
-    /// Waits until all that was submitted is there. Throws as waitFor().
+    /// Waits until all uploads have arrived. Throws as waitFor().
     void wait() { commands_.wait(); }
 
 private:

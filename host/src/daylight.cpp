@@ -20,15 +20,15 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kSun_lx = 128000.0; // outside the air
-constexpr double kMoon_lx = 0.32;    // full, likewise
+constexpr double kMoon_lx = 0.32;    // full, outside the air
 constexpr double kStars_lx = 0.002;  // with airglow, on level ground
 constexpr double kDarkest_lx = 0.03; // eyes get used to no less light than that
 const glm::dvec3 kStarlight{0.8, 1.0, 1.3};
-/// What a white surface square to the brightest light comes out as, before the tone curve, where the sky is about 0.6:
+/// The value of a white surface square to the brightest light, before the tone curve, where the sky is about 0.6:
 /// ToneCurve::neutral then takes it to 0.95 of its range, and a grey of 18 % to a middle tone. Under a physical sky
 /// that is so on a sunny day.
 constexpr double kKey = 1.35;
-/// What an eye gets used to is the sky, and things of a mean albedo.
+/// The exposure is chosen for the sky and for things of a mean albedo.
 constexpr double kMeanAlbedo = 0.2;
 /// Light that has bounced off the surroundings is nowhere else accounted for. The physical sky has a ground.
 constexpr double kBounced = 1.5;
@@ -133,7 +133,7 @@ struct Hour {
 
     [[nodiscard]] bool ownSun() const { return sun->body == scene::Body::sun; }
 
-    /// What the ground gets from the bodies in the sky.
+    /// Finds the light of the ground from the bodies in the sky.
     void look(const FrameLight& light)
     {
         for (std::size_t i = 0; i < kSkyBodies; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All light of a frame, exposed: what its lights give, the sky, what the sky gives, and how bright the picture is.
+// All light of a frame, exposed: its lights, the sky, the sky's light, and the brightness of the picture.
 #pragma once
 
 #include "atmosphere.h"
@@ -19,7 +19,7 @@ struct SkyBody {
     glm::dvec3 times{0.0}; // exposed radiance of the sky per unit of SkyUnder's tables
     glm::dvec3 disc{0.0};  // exposed radiance of its disc
     double cos_radius = 0.9999;
-    /// The tables, and a number that says which they are: another one when they have changed. 0: there is no body.
+    /// The tables, and a number that changes with them. 0: there is no body.
     const SkyUnder* under = nullptr;
     std::uint64_t version = 0;
 };
@@ -46,11 +46,11 @@ struct FrameLight {
 /// are only scaled by Environment::exposure, so lights in lux, candela or any other unit fit the same sky.
 [[nodiscard]] double exposureOf(std::span<const double> given, const scene::Environment& environment);
 
-/// Keeps the tables of the last sun and moon. What it says is a function of its arguments alone.
+/// Keeps the tables of the last sun and moon. Its result depends on the arguments alone.
 class Daylight {
 public:
-    /// `given`: what each of the lights gives to what is seen (SeenLight). Allocates nothing. Valid until the next
-    /// call.
+    /// `given`: the illuminance by each light of the surfaces in view (SeenLight). Allocates nothing. Valid until the
+    /// next call.
     const FrameLight& at(SkyModel sky, double exposure_ev, std::span<const ShadedLight> lights,
                          std::span<const double> given, const scene::Environment& environment);
 

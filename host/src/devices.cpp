@@ -66,7 +66,7 @@ std::string refusalOf(VkInstance instance, VkPhysicalDevice device, const GpuOpt
     if (missing[0] != '\0') {
         return std::string("it lacks ") + missing.data();
     }
-    // Of this and 24 bits, which the program does not draw to, a device has one.
+    // Vulkan promises either this or 24 bits, and the program does not draw to the latter.
     if (!canBe(device, kDepthFormat, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT)) {
         return "it draws to no depth buffer of 32-bit floats";
     }
@@ -106,7 +106,7 @@ bool hasCachedMemory(VkPhysicalDevice device)
                        [](const VkMemoryType& type) { return (type.propertyFlags & kCached) == kCached; });
 }
 
-/// What the program uses of a device beside the library.
+/// Adds the optional parts of a device that the program itself uses.
 void addOwnParts(VkPhysicalDevice device, std::vector<GpuPart>& parts)
 {
     constexpr VkFormatFeatureFlags kTarget =

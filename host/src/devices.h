@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The devices that there are: which can be used, and which is taken.
+// The devices of the machine: which can be used, and which is taken.
 #pragma once
 
 #include "host/gpu.h"
@@ -14,14 +14,14 @@ namespace gnomon::host {
 [[nodiscard]] bool canBe(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlags uses);
 /// Name and version, for reports.
 [[nodiscard]] std::string driverOf(VkPhysicalDevice device);
-/// The first family of queues that draws, computes, and where a window is wanted shows pictures in it.
+/// The first family of queues that draws, computes and, where a window is wanted, presents to it.
 [[nodiscard]] std::optional<std::uint32_t> familyFor(VkInstance instance, VkPhysicalDevice device,
                                                      const GpuOptions& options);
 /// Throws Error that lists every device found and why it was not taken.
 [[nodiscard]] VkPhysicalDevice pickDevice(VkInstance instance, const GpuOptions& options);
 
-/// What the combined layouts of a surface that reads maps take (Pipelines::shadowed_layout): 11 images of the frame,
-/// five textures, and three of the maps. 16 are promised.
+/// The samplers of a surface that reads maps (Pipelines::shadowed_layout): 11 for images of the frame, five for
+/// textures, three for maps. Vulkan promises 16.
 inline constexpr std::uint32_t kForwardSamplers = 19;
 [[nodiscard]] bool hasForwardSamplers(const VkPhysicalDeviceLimits& limits);
 

@@ -95,7 +95,7 @@ void FrameRenderer::Impl::drawFrame(const scene::State& state, const Eye& eye, c
     times.record_ms = millisecondsSince(record_start);
 }
 
-/// Of a frame that ended half way, what the library took for recorded is drawn nowhere.
+/// Resets the library after a frame that ended half way: the GPU never drew what was recorded.
 void FrameRenderer::Impl::forgetBroken()
 {
     if (!whole && shadows) {
@@ -138,7 +138,7 @@ void FrameRenderer::Impl::beginSlot()
     now().shadows = shadows;
 }
 
-/// What the slot's frame, which has been waited for, took for its maps.
+/// Takes the time that the maps of the slot's finished frame took into the draw rate.
 void FrameRenderer::Impl::learnRate()
 {
     Shadows* const drawn_by = now().shadows.get();
@@ -223,7 +223,7 @@ void FrameRenderer::Impl::nameContent()
 void FrameRenderer::Impl::choosePipelines()
 {
     Pipelines& pipelines = scene.pipelines;
-    // What blends, emits, fades or glows is added to light, and supersampling averages it.
+    // Surfaces that blend, emit, fade or glow add to light, and supersampling averages light.
     const bool at_once = !options.keeps_light && pipelines.blended.whole == VK_NULL_HANDLE &&
                          pipelines.emissive.whole == VK_NULL_HANDLE && !pipelines.fades() && !screen->bloom &&
                          options.anti_aliasing != AntiAliasing::ssaa4;

@@ -17,7 +17,7 @@ namespace gnomon::host {
 
 namespace {
 
-// Of caster_batches: what is opaque, and of that what may go without the triangles of one side.
+// Indices into caster_batches: opaque casters, and those that may be drawn without the triangles of one side.
 constexpr std::uint32_t kOpaque = 0;
 constexpr std::uint32_t kOpaqueClosed = 1;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the objects of a scene draw, for the camera and for casters: parts that are instanced, grouped by material.
+// The instanced parts that a scene's objects draw, for the camera and for casters, grouped by material.
 #pragma once
 
 #include "geometry.h"
@@ -35,7 +35,7 @@ struct DrawTable {
     std::vector<vulkan::DrawPart> parts;
     std::vector<vulkan::DrawObject> objects;
     std::vector<vulkan::Rows3x4> transforms; // per object, as `state` has them
-    // The same for casters.
+    // Casters' batches, parts and objects.
     std::vector<vulkan::CasterBatch> caster_batches;
     std::vector<vulkan::DrawPart> caster_parts;
     std::vector<vulkan::DrawObject> caster_objects;
@@ -45,10 +45,10 @@ struct DrawTable {
     std::vector<std::uint8_t> outlined; // outlinedObjects()
     std::vector<std::uint16_t> pieces;  // pieceCounts()
     std::vector<std::uint8_t> joined;   // joinedObjects()
-    // Of opaque objects.
+    // About opaque objects.
     bool all_receive = true;
     bool any_smooth = false; // Geometry::isSmooth()
-    /// Per object, which primitive of which mesh it is.
+    /// The mesh and the primitive of an object.
     struct Source {
         std::uint32_t mesh = 0;
         std::uint32_t primitive = 0;

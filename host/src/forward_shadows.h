@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shadows on surfaces that are shaded as they are drawn, by door 2 of docs/integrating.md. With Shading::forward these
-// are all surfaces. Else they are the blended ones: the mask has one surface a pixel, so it cannot know what is blended
-// over that. They read the frame's maps in the pass that lights them.
+// are all surfaces. Else they are the blended ones: the mask has one surface a pixel, and does not know what blends
+// over it. They read the frame's maps in the pass that lights them.
 #pragma once
 
 #include "scene_data.h"
@@ -10,22 +10,22 @@
 
 namespace gnomon::host {
 
-/// What that pass binds: for each slot a set, and the buffers in it.
+/// The bindings of the pass that reads maps: for each slot a set and its buffers.
 class ForwardShadows {
 public:
-    /// For lights of these options. Makes the pipeline of blended surfaces where the scene has some. Throws Error.
+    /// Makes the pipeline of blended surfaces, for these options, where the scene has some. Throws Error.
     ForwardShadows(SceneData& scene, const ResolvedOptions& options, std::uint32_t slots);
     ~ForwardShadows() = default;
     ForwardShadows(const ForwardShadows&) = delete;
     ForwardShadows& operator=(const ForwardShadows&) = delete;
 
-    /// For the frame that is recorded next, after ShadowRenderer::prepare(). The GPU has finished the slot's last
-    /// frame. Precondition: the plan has views. Throws Error.
+    /// Fills the slot's set for the frame that is recorded next, after ShadowRenderer::prepare(). Preconditions: the
+    /// GPU has finished the slot's last frame, and the plan has views. Throws Error.
     void describe(std::uint32_t slot, const Plan& plan, const vulkan::ShadowRenderer& renderer);
-    /// Outside of rendering, after ShadowRenderer::recordBounds().
+    /// To be called outside of rendering, after ShadowRenderer::recordBounds().
     void recordViews(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan,
                      vulkan::ShadowRenderer& renderer) const;
-    /// Inside rendering: set 2. Sets 0 and 1 are the scene's.
+    /// Binds set 2, inside rendering. Sets 0 and 1 are the scene's.
     void bind(VkCommandBuffer commands, std::uint32_t slot) const;
     [[nodiscard]] VkDescriptorSet set(std::uint32_t slot) const { return slots_[slot].set; }
     [[nodiscard]] const SurfacePipelines& blended() const { return of_blended_; }

@@ -34,7 +34,7 @@ struct FrameData {
 };
 static_assert(sizeof(FrameData) == 64 + 18 * 16 + 16 + kMaxLights * 80);
 
-/// An Eye with everything worked out: axes and distances.
+/// An Eye with its axes and distances computed.
 struct Sight {
     glm::dvec3 eye_ws;
     glm::dvec3 right_ws;
@@ -54,7 +54,7 @@ struct Sight {
 /// The camera of a picture of `drawn_px` pixels.
 [[nodiscard]] Camera cameraOf(const Sight& sight, const glm::dvec2& drawn_px);
 
-/// LightData::right.w: where in the masks a light's is.
+/// LightData::right.w: the place of a light's mask.
 [[nodiscard]] float maskSlot(std::uint32_t layer, std::uint32_t channel, bool coloured);
 
 /// Fills everything but the lights' cookie layers and mask slots from the arguments; `cookie_layers` has one per light.

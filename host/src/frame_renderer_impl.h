@@ -21,10 +21,10 @@ enum class Maps : std::uint8_t {
 
 struct FrameRenderer::Impl {
     Impl(SceneData& scene, const RenderOptions& options);
-    /// For the destructor: until the GPU has finished all frames.
+    /// Waits until the GPU has finished all frames; for the destructor.
     void settle() noexcept;
 
-    /// What a frame needs until the GPU has finished it.
+    /// Resources of a frame until the GPU has finished it.
     struct Slot {
         std::shared_ptr<Screen> screen;
         std::shared_ptr<Shadows> shadows;
@@ -44,7 +44,7 @@ struct FrameRenderer::Impl {
     vulkan::Profiler profiler;
     std::vector<Slot> slots;
     Commands read_commands;
-    // Of the frames to come. Those before may have others, which their slots hold.
+    // For frames to come. Earlier frames may have others, which their slots hold.
     std::shared_ptr<Screen> screen;
     std::shared_ptr<Shadows> shadows; // null: none are wanted
 
@@ -61,13 +61,13 @@ struct FrameRenderer::Impl {
     const Image* instead = nullptr; // masks of someone else's
     FinishedFrame finished;
     VkDescriptorSet frame_set = VK_NULL_HANDLE;
-    /// Of a frame that is shaded as it is drawn.
+    /// Pipelines of a frame that is shaded as it is drawn.
     struct Forward {
         bool on = false;
         ForwardFacts facts;
         const KindPipelines* pipelines = nullptr;
     } forward;
-    /// Of a frame with a G-buffer.
+    /// Pipelines of a frame with a G-buffer.
     struct {
         GBufferShape shape;
         const KindPipelines* pipelines = nullptr;
@@ -85,7 +85,7 @@ struct FrameRenderer::Impl {
     bool deform_now = false;
     bool whole = true; // it was submitted; false: something threw before
 
-    /// What depth and G-buffer show, and the number that names it.
+    /// The view that depth and G-buffer show, and the number that names it.
     struct Shown {
         Camera camera;
         glm::uvec2 size_px{0};
@@ -127,7 +127,7 @@ struct FrameRenderer::Impl {
     void describeFrame();
     /// Is this frame's mask compact?
     [[nodiscard]] bool hasTiles() const;
-    /// Where surfaces that are shaded as they are drawn have their shadows from; null: there are none, or no maps.
+    /// The shadows for surfaces that are shaded as they are drawn; null: there are no such surfaces, or no maps.
     [[nodiscard]] ForwardShadows* forwardShadows();
     void choosePipelines();
     void chooseForward(const ShadedBy& by);

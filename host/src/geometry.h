@@ -36,7 +36,7 @@ public:
 
     /// Where the triangles of an object are.
     [[nodiscard]] vulkan::MeshRange range(const scene::Object& object) const;
-    /// Of how many pieces an object is, for ObjectFlags::pieces.
+    /// The number of pieces of an object, for ObjectFlags::pieces.
     [[nodiscard]] std::uint16_t pieces(const scene::Object& object) const;
     [[nodiscard]] bool deforms() const { return deformed_vertices_ > 0; }
     /// Do normals of its triangles lean, so that a smooth surface may lie over them (smooth_surface.h)?

@@ -114,7 +114,7 @@ void Gpu::Impl::storeCache() const noexcept
     }
 }
 
-// Whoever submits waits for it, so the device is idle.
+// Each submission is waited for, so the device is idle.
 Gpu::Impl::~Impl()
 {
     if (view.device != VK_NULL_HANDLE) {

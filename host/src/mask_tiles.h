@@ -14,9 +14,10 @@ class MaskTiles {
 public:
     MaskTiles(SceneData& scene, std::uint32_t slots);
 
-    /// After ShadowRenderer::recordMask(), of the same slot. The GPU has finished the slot's last frame.
+    /// To be called after ShadowRenderer::recordMask() of the same slot, once the GPU has finished the slot's last
+    /// frame.
     void describe(std::uint32_t slot, const vulkan::BufferRef& tiles) const;
-    /// Sets 0 and 1 of Pipelines::compact_layout.
+    /// Binds sets 0 and 1 of Pipelines::compact_layout.
     void bind(VkCommandBuffer commands, std::uint32_t slot, VkDescriptorSet frame_set) const;
 
 private:

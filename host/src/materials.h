@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene's materials as descriptor sets, and what each needs of a pipeline.
+// A scene's materials as descriptor sets, and their demands on a pipeline.
 #pragma once
 
 #include "textures.h"

@@ -18,7 +18,7 @@ struct Buffer {
     VkDeviceSize size = 0;
     void* mapped = nullptr; // host-visible buffers: for good
     VkDeviceMemory own_memory = VK_NULL_HANDLE;
-    VkDeviceMemory unseen = VK_NULL_HANDLE; // where what the GPU writes does not come to the host's sight by itself
+    VkDeviceMemory unseen = VK_NULL_HANDLE; // set where the host does not see the GPU's writes by itself
     const char* purpose = "";
 };
 
@@ -59,7 +59,7 @@ public:
     /// Grows a host-visible buffer to at least `size` (in powers of two); its content is lost. True when it did.
     bool grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage, const char* purpose,
               Place place = Place::host);
-    /// What the GPU has written there, and is done with. Throws Error.
+    /// Lets the host see what the GPU has written and finished. Throws Error.
     void makeVisible(const Buffer& buffer) const;
     [[nodiscard]] const Gpu& gpu() const { return gpu_; }
     [[nodiscard]] const std::vector<vulkan::MemoryUse>& uses() const { return uses_; }
@@ -90,9 +90,9 @@ private:
     [[nodiscard]] OwnedMemory allocateBlock(VkDeviceSize size, std::uint32_t type, bool is_last) const;
     [[nodiscard]] void* map(VkDeviceMemory memory) const;
     [[nodiscard]] OwnedImageView makeView(const Image& image, const ImageWish& wish) const;
-    /// Those that fit, the best ones first. Throws Error when none does.
+    /// The memory types that fit, the best ones first. Throws Error when none does.
     [[nodiscard]] std::vector<std::uint32_t> typesFor(std::uint32_t bits, Place place) const;
-    /// To be found or made before anything that would have to be given back.
+    /// Finds or makes a purpose's entry. Call it before an allocation that would have to be released if this threw.
     [[nodiscard]] vulkan::MemoryUse& useFor(const char* purpose);
 
     const Gpu& gpu_;

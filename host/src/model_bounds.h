@@ -5,10 +5,10 @@
 
 namespace gnomon::host {
 
-/// Does an object fade into the sky (ShadingModel::horizon)? Such a ground is as large as it has to be, whatever stands
-/// on it.
+/// Does an object fade into the sky (ShadingModel::horizon)? The size of such a ground does not depend on the model on
+/// it.
 [[nodiscard]] bool fades(const scene::Scene& scene, const scene::Object& object);
-/// Bounds of all objects that do not.
+/// Bounds of all objects that do not fade.
 [[nodiscard]] Aabb modelBounds(const scene::Scene& scene, const scene::State& state);
 
 } // namespace gnomon::host

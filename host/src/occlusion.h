@@ -10,7 +10,7 @@ namespace gnomon::host {
 
 /// Half the picture's size, and a texel more (host/shaders/occlusion_texel.glsl).
 struct Occlusion {
-    /// `drawn`: of the depth that it is found from. Throws Error.
+    /// `drawn` is the extent of the depth that it reads. Throws Error.
     Occlusion(Memory& memory, Pipelines& pipelines, VkExtent2D drawn);
 
     Image searched; // of every second pixel, as it was found
@@ -19,8 +19,8 @@ struct Occlusion {
     VkPipeline smoothen = VK_NULL_HANDLE;
 };
 
-/// How far what hides the sky may be in this scene, metres: a quarter of the median of its objects' diagonals, and 0.03
-/// of the whole at most, grounds that fade into the sky left out. Above 0. `state`: the scene at rest, so that it is
+/// The largest distance of a surface that hides the sky, metres: a quarter of the median of the objects' diagonals, at
+/// most 0.03 of the whole, without grounds that fade into the sky. Above 0. `state` is the scene at rest, so that it is
 /// the same in every frame.
 [[nodiscard]] double occlusionRadius(const scene::Scene& scene, const scene::State& state);
 

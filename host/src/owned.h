@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles that go with their owner, whatever threw in between.
+// Handles that are destroyed with their owner, whatever throws.
 #pragma once
 
 #include "host/gpu.h"
@@ -10,7 +10,7 @@
 
 namespace gnomon::host {
 
-/// Owns one handle of a device. Of an abandoned device it destroys nothing: the GPU may still be at work with it.
+/// Owns one handle of a device. Destroys nothing of an abandoned device: the GPU may still use it.
 template <class Handle, auto Destroy>
 class Owned {
 public:

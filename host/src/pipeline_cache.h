@@ -13,7 +13,8 @@ namespace gnomon::host {
 [[nodiscard]] std::filesystem::path pipelineCacheFile(const VkPhysicalDeviceProperties& properties);
 /// A cache with the file's content, or an empty one when the file is absent, torn or of another driver.
 [[nodiscard]] VkPipelineCache loadPipelineCache(VkDevice device, const std::filesystem::path& file);
-/// Whole or not at all; a folder that cannot be written to means no file, silently, because nothing depends on it.
+/// Writes the file whole or not at all. Where the folder cannot be written to there is no file and no error, because
+/// nothing depends on it.
 void storePipelineCache(VkDevice device, VkPipelineCache cache, const std::filesystem::path& file);
 
 } // namespace gnomon::host

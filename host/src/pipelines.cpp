@@ -52,7 +52,7 @@ VkPipelineColorBlendAttachmentState blendState(bool add)
 constexpr std::array<VkDynamicState, 4> kDynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
                                                  VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE};
 
-// What hardly differs from pipeline to pipeline. Points into itself, so it stays where it is made.
+// State that hardly differs from pipeline to pipeline. Points into itself, so it must not move.
 struct FixedState {
     FixedState(bool scene, std::size_t colours, bool blends)
     {

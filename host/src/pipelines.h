@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The graphics pipelines that draw a scene, shared by all who do: each is made once, and only where it is needed.
+// The graphics pipelines that draw a scene, shared by all renderers: each is made once, and only where it is needed.
 #pragma once
 
 #include "draw_table.h"
@@ -24,7 +24,7 @@ inline constexpr VkFormat kLightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat kPictureFormat = VK_FORMAT_R8G8B8A8_UNORM;
 inline constexpr VkFormat kOcclusionFormat = VK_FORMAT_R32_UINT; // host/shaders/occlusion_texel.glsl
 inline constexpr std::uint32_t kFrameBindings = 12;              // of set 0: numbers, and images from 1 on
-/// What shading reads, with the object's id (host/shaders/gbuffer_surface.glsl); MaskInputs::normal, object_id, smooth.
+/// Formats of the images that shading reads (host/shaders/gbuffer_surface.glsl); MaskInputs::normal, object_id, smooth.
 using GBufferFormats = std::array<VkFormat, 4>;
 /// 16-bit snorm for normals and smooth surfaces where the device draws to it, which none has to; else 32-bit floats,
 /// which all do. So a normal never has fewer bits than the automatic bias is best with.
@@ -40,7 +40,7 @@ struct GBufferShape {
     [[nodiscard]] std::size_t image(std::size_t i) const { return i == 2 && !ids ? 3 : i; }
 };
 
-/// What gnomon/visibility.glsl and technique_constants.glsl want bound: constants, maps, lights, views, layers of
+/// The bindings of gnomon/visibility.glsl and technique_constants.glsl: constants, maps, lights, views, layers of
 /// depth, blocks, tints, objects, few views.
 inline constexpr std::array<VkDescriptorType, 9> kMapsBindings{
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
@@ -61,7 +61,7 @@ struct InstanceData {
 };
 static_assert(sizeof(InstanceData) == 64);
 
-/// Whether what shades or draws the sky writes the finished picture at once, and how.
+/// Whether passes that shade or draw the sky write the finished picture at once, and how.
 struct Toning {
     bool on = false;
     ToneCurve curve = ToneCurve::neutral;
@@ -70,12 +70,12 @@ struct Toning {
     bool operator==(const Toning&) const = default;
 };
 
-/// What the tone pass does.
+/// The work of the tone pass.
 struct ToneFacts {
     ToneCurve curve = ToneCurve::neutral;
     bool dither = false;
     bool average_four = false;
-    float bloom = 0.0F; // what the bloom's sum is multiplied by; 0: none
+    float bloom = 0.0F; // factor of the bloom's sum; 0: none
     float bloom_radius = 1.0F;
 
     bool operator==(const ToneFacts&) const = default;
@@ -100,7 +100,7 @@ struct SkyFacts {
     bool operator==(const SkyFacts&) const = default;
 };
 
-/// What pipelines that shade are made for.
+/// The facts of a frame that a shading pipeline is made for.
 struct ShadedBy {
     std::uint32_t fixed_lights = 0; // how many lights the frame has, at most kMostFixedLights; 0: any number
     bool all_directional = false;
@@ -112,7 +112,7 @@ struct ShadedBy {
 };
 inline constexpr std::size_t kMostFixedLights = 4;
 
-/// The same of surfaces that are shaded as they are drawn.
+/// The facts that a pipeline for surfaces that are shaded as they are drawn is made for.
 struct ForwardFacts {
     ShadedBy by;
     std::string fragment = "forward.frag"; // with a filter's name: in the shadow of its maps
@@ -138,11 +138,11 @@ public:
     KindPipelines depth_alone; // of opaque surfaces
     VkPipeline sky = VK_NULL_HANDLE;
 
-    /// Whether surfaces can read maps as they are drawn (hasForwardSamplers()). Else blended ones are lit, and nothing
-    /// else is shaded forward.
+    /// Whether surfaces can read maps as they are drawn (hasForwardSamplers()). If not, blended surfaces are lit
+    /// without shadow, and nothing else is shaded forward.
     [[nodiscard]] bool readsMaps() const { return static_cast<bool>(shadowed_layout); }
 
-    // Compiled when first asked for, which is not to be while a frame is recorded.
+    // These compile at the first call, which must not be while a frame is recorded.
     /// Opaque surfaces to the images of this shape.
     [[nodiscard]] const KindPipelines& gbufferFor(const GBufferShape& shape);
     /// The shading pass. Phong and unlit surfaces are left out where the scene has none.
@@ -189,7 +189,7 @@ private:
     void makeDepthAlone();
     [[nodiscard]] static Wish blendedWish();
     VkPipeline make(const Wish& wish);
-    /// `cut`: some are.
+    /// `cut`: some surfaces are cut.
     SurfacePipelines makeSurface(Wish wish, bool cut);
     void makeScene(const Materials& materials);
     [[nodiscard]] VkPipeline makeSky(const SkyFacts& facts, bool over_surface = false);

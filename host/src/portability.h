@@ -9,9 +9,9 @@
 
 namespace gnomon::host {
 
-/// A device that lacks what Vulkan else promises says so by an extension, which must be on then, and lists by features
-/// what of that it has. Of such a device this turns on the extension and all these features; of others nothing. To live
-/// until vkCreateDevice() has returned.
+/// A device with a subset of Vulkan has an extension, which must be on, with a feature for each optional part that it
+/// has. This turns on the extension and all these features where the device has it. It must live until vkCreateDevice()
+/// has returned.
 class PortabilitySubset {
 public:
     PortabilitySubset(VkPhysicalDevice device, VkDeviceCreateInfo& info, std::vector<const char*>& extensions);

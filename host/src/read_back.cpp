@@ -55,7 +55,7 @@ struct ReadBack::Impl {
 
     const WantedImages wanted;
     TexelCopies copies;
-    /// Of the frame that was recorded last: where its images are; null where nothing was wanted.
+    /// The images of the frame that was recorded last; null where nothing was wanted.
     struct {
         VkExtent2D drawn{};
         VkExtent2D shown{};
@@ -190,7 +190,7 @@ void ReadBack::Impl::readGeometry(Picture& picture) const
 
 namespace {
 
-/// What a frame does not have because of how it was shaded.
+/// Throws Error for wanted images that the frame lacks because of how it was shaded.
 void checkWanted(const WantedImages& wanted, const FinishedFrame& frame)
 {
     if ((wanted.masks || wanted.geometry) && frame.normals.image == VK_NULL_HANDLE) {

@@ -208,7 +208,7 @@ void FrameRenderer::Impl::recordLight(VkCommandBuffer cmd)
     memory.names().end(cmd);
 }
 
-/// What surfaces are shaded to: the light, or with the tone curve what comes after it.
+/// The image that surfaces are shaded to: the light, or an image after the tone curve.
 const Image& FrameRenderer::Impl::shadedTo() const
 {
     const Targets& targets = screen->targets;

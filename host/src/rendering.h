@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a pass over images begins.
+// The beginning of a pass over images.
 #pragma once
 
 #include "commands.h"

@@ -27,7 +27,7 @@ struct SceneData {
     Geometry geometry;
     DrawTable table;
     Pipelines pipelines;
-    /// Which state the deformed vertices are of once all that was submitted is done.
+    /// The time of the state whose deformed vertices are there once all submissions are done.
     std::optional<double> deformed_at_s;
     std::optional<double> occlusion_radius_m; // occlusionRadius(), once somebody has asked
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame draws of a scene: objects as instanced indirect draws grouped by material.
+// The draws of a scene in a frame: objects as instanced indirect draws grouped by material.
 #pragma once
 
 #include "draw_table.h"
@@ -17,20 +17,20 @@ public:
     SceneDraws(Memory& memory, const DrawTable& table, const Geometry& geometry, const Materials& materials,
                std::uint32_t slots);
 
-    /// Takes over where the dynamic objects are now, and tells `objects` which of them changed; `deformed`: the
-    /// deformed ones have.
+    /// Takes the new places of the dynamic objects, and tells `objects` which of them changed; `deformed`: those that
+    /// deform have changed.
     void update(const scene::State& state, ObjectSet& objects, bool deformed);
     /// Writes instances and commands for the objects that the camera sees, for the frame that is recorded next. The GPU
     /// has finished the last frame of this slot.
     void build(std::uint32_t slot, const scene::State& state, const glm::dvec3& eye_ws,
                std::span<const std::uint32_t> visible);
 
-    /// Inside rendering. Return the number of draw calls. recordOpaque binds the frame's set, that of the maps, if any,
-    /// and the vertex streams itself; before the others they are bound. recordBlended draws with `blended`.
+    /// Inside rendering. Return the number of draw calls. recordOpaque binds the frame's set, the set of the maps, if
+    /// any, and the vertex streams; for the others they must be bound. recordBlended draws with `blended`.
     std::uint32_t recordOpaque(VkCommandBuffer commands, const Pipelines& pipelines, const KindPipelines& of_kinds,
                                VkDescriptorSet frame_set, VkDescriptorSet maps_set = VK_NULL_HANDLE) const;
     std::uint32_t recordEmissive(VkCommandBuffer commands, const Pipelines& pipelines) const;
-    /// What fades into the sky, after it is shaded; by this pipeline.
+    /// Records the surfaces that fade into the sky, with this pipeline, after they are shaded.
     std::uint32_t recordFading(VkCommandBuffer commands, const Pipelines& pipelines, VkPipeline fading) const;
     std::uint32_t recordBlended(VkCommandBuffer commands, const Pipelines& pipelines,
                                 const SurfacePipelines& blended) const;
@@ -53,7 +53,7 @@ private:
     void writeInstance(InstanceData& out, std::uint32_t object, bool receives, const glm::dvec3& eye_ws) const;
     std::uint32_t recordBatch(VkCommandBuffer commands, const Pipelines& pipelines,
                               const vulkan::BatchDraws& some) const;
-    /// What a batch's draws need besides the pipeline.
+    /// Binds what a batch's draws need besides the pipeline.
     void setBatch(VkCommandBuffer commands, const Pipelines& pipelines, const Batch& batch) const;
 
     bool indirect_; // FeatureUses::indirect_draws is on

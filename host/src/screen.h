@@ -11,7 +11,7 @@
 
 namespace gnomon::host {
 
-/// What is drawn: the picture's size, or twice that on each side with supersampling.
+/// The size that is drawn: the picture's, or twice that on each side with supersampling.
 [[nodiscard]] VkExtent2D drawnExtent(const RenderOptions& options);
 
 /// Frames that the GPU has not finished share one, so it lives until the last of them is done.
@@ -28,14 +28,14 @@ public:
     /// The set 0 of a slot's frame, with this mask; the scene's cookies stand in for none. The GPU has finished the
     /// slot's last frame.
     [[nodiscard]] VkDescriptorSet frameSet(std::uint32_t slot, VkImageView mask) const;
-    /// Makes what a frame of deferred shading draws to. Throws Error.
+    /// Makes the images that a frame of deferred shading draws to. Throws Error.
     void needGBuffer(const GBufferFormats& formats, const GBufferShape& shape)
     {
         targets.needGBuffer(memory_, formats, shape);
     }
-    /// Likewise for ambient occlusion.
+    /// Makes the images of ambient occlusion. Throws Error.
     void needOcclusion();
-    /// An image for masks of someone else's, with so many layers at least.
+    /// An image for `masks_instead`, with at least `layers` layers.
     [[nodiscard]] const Image& insteadFor(std::uint32_t layers);
     [[nodiscard]] const std::vector<vulkan::MemoryUse>& memory() const { return memory_.uses(); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much light the lights give to what is seen: the exposure follows it.
+// The light of lights on visible surfaces, from which the exposure follows.
 #pragma once
 
 #include "frame_data.h"
@@ -20,8 +20,8 @@ public:
     /// For each light, at its full strength, the illuminance of the surfaces that it shines on and the camera sees:
     /// lux, or the unit of the scene's lights. A directional light has its own. The 16 spot and point lights of most
     /// candela count, the others have 0. Where a lamp's place in the picture is small, or beside it, it has less, but
-    /// not less than a 16th of what it gives there. `left_out`: by object, 1 for those that do not count; empty: all
-    /// do. Valid until the next call.
+    /// at least a 16th of its illuminance there. `left_out`: by object, 1 for those that do not count; empty: all do.
+    /// Valid until the next call.
     std::span<const double> find(std::span<const ShadedLight> lights, const ObjectSet& objects, const Sight& sight,
                                  std::span<const std::uint8_t> left_out = {});
 

@@ -21,12 +21,12 @@ struct Shadows {
     /// Throws Error.
     Shadows(SceneData& scene, const RenderOptions& options);
 
-    /// The last plan once more, for this frame's eye; nothing of it is to be drawn.
+    /// The last plan again for this frame's eye; its maps must not be drawn.
     [[nodiscard]] const Plan& planAgain(const Frame& frame);
     /// The last plan as the GPU has fitted it. The GPU has finished it, with this slot.
     [[nodiscard]] const Plan& fittedPlan(std::uint32_t slot);
 
-    GBufferShape reads; // what the mask wants to know of surfaces
+    GBufferShape reads; // the images of surfaces that the mask reads
     Planner planner;
     vulkan::ShadowRenderer renderer;
     vulkan::CasterDrawer casters;

@@ -12,15 +12,16 @@ namespace gnomon::host {
 
 class SkyTable {
 public:
-    /// With room for each frame in flight to bring its own. Throws Error.
+    /// Makes room for each frame in flight to bring its own tables. Throws Error.
     SkyTable(SceneData& scene, Memory& memory, std::size_t slots);
 
-    /// What a physical frame needs that is not there yet: true when there is something to record. The GPU has finished
-    /// the slot's last frame.
+    /// Prepares the tables that a physical frame needs and that are not there yet; true when there is something to
+    /// record. Precondition: the GPU has finished the slot's last frame.
     [[nodiscard]] bool bring(std::uint32_t slot, const FrameLight& light);
-    /// Before anything reads them, outside rendering. Frames before this one have what they need: the queue is one.
+    /// Copies the tables, outside rendering, before anything reads them. Frames share one queue, so earlier ones keep
+    /// their tables.
     void record(VkCommandBuffer cmd, std::uint32_t slot);
-    /// A frame was recorded and not submitted: nobody knows what is there.
+    /// To be called when a frame was recorded and not submitted: the tables on the GPU are then unknown.
     void forget()
     {
         versions_ = {};

@@ -9,7 +9,7 @@
 namespace gnomon::host {
 namespace {
 
-// Of every format's texels, so that a copy may begin anywhere.
+// A multiple of every format's texel, so that a copy may begin anywhere.
 constexpr VkDeviceSize kAlignment = 16;
 
 bool isDepth(VkFormat format)

@@ -10,7 +10,7 @@
 
 namespace gnomon::host {
 
-/// How the texels of an image lie in memory.
+/// The layout of an image's texels in memory.
 enum class Number : std::uint8_t { unorm8, unorm16, half, single, other };
 struct TexelForm {
     std::uint32_t channels = 1;
@@ -26,15 +26,15 @@ class TexelCopies {
 public:
     explicit TexelCopies(const Gpu& gpu);
 
-    /// Before add(): forgets what was copied before, and makes room.
+    /// To be called before add(): forgets earlier copies, and makes room.
     void begin(VkDeviceSize bytes);
     [[nodiscard]] static VkDeviceSize bytesOf(const vulkan::ImageRef& image);
-    /// Records the copy of one layer at its finest level, and returns where it will be. `image` has been written by
+    /// Records the copy of one layer at its finest level, and returns its future place. `image` has been written by
     /// passes whose writes are visible as its layout says; it is left in that layout.
     [[nodiscard]] const void* add(VkCommandBuffer commands, const vulkan::ImageRef& image, std::uint32_t layer);
-    /// After the last add(): the host may read once the GPU is done.
+    /// To be called after the last add(): the host may read once the GPU is done.
     static void end(VkCommandBuffer commands);
-    /// Once the GPU is done, before the host reads. Throws Error.
+    /// To be called once the GPU is done, before the host reads. Throws Error.
     void makeVisible() const { memory_.makeVisible(buffer_); }
 
 private:

@@ -19,7 +19,7 @@ public:
     Textures& operator=(const Textures&) = delete;
 
     enum class Role : std::uint8_t { colour, data, normal };
-    /// What to bind for a use; one neutral texel where there is no texture.
+    /// The texture to bind for a use; one neutral texel where there is no texture.
     [[nodiscard]] VkDescriptorImageInfo use(const scene::TextureUse& use, Role role);
     /// All cookies as layers of one array, because samplers cannot be indexed on every device. Layer 0 is white.
     [[nodiscard]] VkDescriptorImageInfo cookies() const;

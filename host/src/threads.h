@@ -3,12 +3,11 @@
 
 namespace gnomon::host {
 
-/// Throws Error unless this process may start `count` more threads at once, which it tries. llvmpipe does not look
-/// whether it got those that it draws with, and waits for them without end.
+/// Throws Error unless this process can start `count` more threads at once, which it tries. llvmpipe does not check
+/// that it got its threads, and waits for them without end.
 void requireThreads(unsigned count, const char* tried);
 
-/// How many a driver that draws with the processor starts at most: one for each core, one for its queue and one for its
-/// cache.
+/// The most threads that a driver on the processor starts: one for each core, one for its queue and one for its cache.
 [[nodiscard]] unsigned threadsOfSoftwareDriver();
 
 } // namespace gnomon::host

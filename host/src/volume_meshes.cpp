@@ -17,7 +17,7 @@ struct Elements {
     std::vector<glm::uvec4> all; // as VolumeGeometry::elements
     std::vector<std::array<std::uint32_t, 3>> triangles;
 
-    /// Of one primitive.
+    /// Adds one primitive.
     vulkan::VolumeMesh add(const scene::Primitive& primitive)
     {
         const scene::Adjacency adjacency = scene::adjacencyOf(primitive);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the library's VolumeDrawer draws of a scene: the edges and triangles of what is closed; and what its FinDrawer
-// draws: the edges of whatever has the outline of its mesh.
+// The meshes of a scene for the library's VolumeDrawer and FinDrawer. The former draws edges and triangles of closed
+// objects, the latter the edges of objects whose shadow has their mesh's outline.
 #pragma once
 
 #include "scene_data.h"
@@ -14,7 +14,7 @@ namespace gnomon::host {
 class VolumeMeshes {
 public:
     enum class Use : std::uint8_t { volumes, fins };
-    /// Uploads them, and waits for that. Throws Error.
+    /// Uploads the meshes and waits for that. Throws Error.
     VolumeMeshes(SceneData& scene, Use use);
 
     /// By object.

@@ -80,7 +80,7 @@ private:
     std::string_view bytes_;
 };
 
-/// What of one header decides how much memory its image takes.
+/// The parts of one header that decide how much memory its image takes.
 struct Image {
     std::uint64_t width = 0;
     std::uint64_t height = 0;
@@ -157,14 +157,14 @@ void takeAttribute(std::string_view name, std::string_view type, Bytes value, Im
     }
 }
 
-/// What no compression of the format can have made of a file of that size is refused before memory is taken for it.
+/// Refuses an image too large for a file of that size under any compression of the format, before memory is taken.
 void checkProportion(const Image& image, std::uint64_t file_bytes)
 {
     constexpr unsigned kLinesOfBlock[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256}; // by the number of the compression
     constexpr unsigned kDwaa = 8;
     const std::uint64_t lines = kLinesOfBlock[std::min<std::size_t>(image.compression, 9)];
-    // Deflate makes 1032 of one byte, and PXR24 has left out one of four before. DWA says "nothing more" of 64 halves
-    // in one, and deflates that.
+    // Deflate makes 1032 bytes of one, and PXR24 leaves out one of four first. DWA ends a block of 64 halves with one
+    // half, and deflates that.
     const std::uint64_t expansion = image.compression >= kDwaa ? 66048 : 1376;
     constexpr std::uint64_t kAlways = 16U << 20U; // a block of lines or a tile is made whole, however small the image
     const std::uint64_t pixels = std::max(image.width * std::max(image.height, lines), image.tile_texels);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far one mask is from another. Images of one channel, values in [0, 1] where they are masks; both of one size.
+// The error of a mask against another. Images have one channel, values in [0, 1] where they are masks, and one size.
 #pragma once
 
 #include "image/image.h"
@@ -12,15 +12,15 @@ namespace gnomon::lab {
 /// 1 where a pixel counts, 0 where it is left out; one channel, the size of the masks.
 using Counted = ImageOf<std::uint8_t>;
 
-/// Of e = test - truth over the counted pixels.
+/// Numbers of e = test - truth over the counted pixels.
 struct ErrorNumbers {
     double rmse = 0.0; // sqrt(mean e^2), [0, 1] for masks; 0 is best
     double mae = 0.0;  // mean |e|
     double bias = 0.0; // mean e: above 0 the test is too bright
     double p99 = 0.0;  // 99th percentile of |e|: the smallest value that at least 99 % of the pixels do not exceed
 };
-/// Nothing when no pixel counts. Precondition: same size, one channel each. A value that is not a number makes every
-/// number NaN, never less: whoever writes masks must not write NaN, and whoever reads these must look.
+/// Nothing when no pixel counts. Precondition: same size, one channel each. A NaN in an image makes every number NaN,
+/// so masks must have none and readers must check for it.
 [[nodiscard]] std::optional<ErrorNumbers> errorNumbers(const ImageF& test, const ImageF& truth, const Counted& counted);
 
 /// All pixels count.

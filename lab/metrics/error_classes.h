@@ -16,7 +16,7 @@ enum class ErrorClass : std::uint8_t {
     edge,       // within kEdgeReachPx of the penumbra or of a truth's edge: aliasing, wrong penumbra width
     acne,       // lit by the truth, darker in the test: false self-shadowing
     detached,   // in the umbra by the truth, lighter in the test, blocker near: peter-panning, leaks at contact
-    bleeding,   // the same, blocker farther: light bleeding
+    bleeding,   // in the umbra by the truth, lighter in the test, blocker farther: light bleeding
     terminator, // where a smooth body turns away from the light; whatever else it may be
     correct,    // away from edges and equal to the truth
 };

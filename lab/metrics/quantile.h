@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quantiles of what was measured: times, densities.
+// Quantiles of measured values: times, densities.
 #pragma once
 
 #include <algorithm>

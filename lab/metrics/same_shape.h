@@ -6,7 +6,7 @@
 
 namespace gnomon::lab {
 
-/// Both of one size and of one channel each.
+/// Do both images have one size and one channel?
 template <typename A, typename B>
 [[nodiscard]] bool areMasksOfOneSize(const ImageOf<A>& a, const ImageOf<B>& b)
 {

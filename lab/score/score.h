@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mask against the truth: which pixels count, how wrong it is and why. From plain images, whoever drew them: an
-// engine scores its own masks with this, without our host.
+// A mask against the truth: which pixels count, how wrong it is and why. It takes plain images, so an engine can score
+// its own masks without our host.
 #pragma once
 
 #include "lab/metrics/error.h"
@@ -23,8 +23,8 @@ struct State;
 
 namespace gnomon::lab {
 
-/// A camera's rays and a light as the tracer takes them. Where a light's near_m is 0 the truth lets all cast, however
-/// near it is.
+/// A camera's rays and a light as the tracer takes them. Where a light's near_m is 0, all objects cast in the truth,
+/// however near they are.
 [[nodiscard]] truth::View truthView(const Camera& camera, glm::uvec2 size_px);
 [[nodiscard]] truth::Light truthLight(const Light& light);
 
@@ -52,7 +52,7 @@ struct CountedPixels {
     PixelCounts counts;
 };
 
-/// The scene at the moment that is judged, who looks at it, and the light.
+/// The scene at the moment that is judged, the camera and the light.
 struct Judged {
     const scene::State& state; // that the truth was traced in
     const Camera& camera;
@@ -63,7 +63,7 @@ struct Judged {
 [[nodiscard]] CountedPixels countPixels(const Judged& judged, const truth::Surfaces& surfaces,
                                         const ImageOf<std::uint32_t>& object_ids);
 
-/// All that one mask says about its technique. The error numbers are absent when no pixel counts.
+/// All numbers of one technique's mask. The error numbers are absent when no pixel counts.
 struct Score {
     ImageF mask;
     Outcome outcome; // of the light's map: without one the mask is all lit
@@ -78,13 +78,13 @@ struct Score {
     MapPages atlas;
 };
 /// `mask`: one channel, visibility in [0, 1], of the size of the truth, from the same camera through the same centres
-/// of pixels. `with_perception`: ssim and flip too, which take longer than all else. What tells of maps stays 0;
-/// texelDensity() and texelUse() give it where there is a plan.
+/// of pixels. `with_perception`: ssim and flip too, which take longer than all else. Numbers about maps stay 0;
+/// texelDensity() and texelUse() give them where there is a plan.
 [[nodiscard]] Score scoreMask(const Judged& judged, const truth::Traced& truth,
                               const ImageOf<std::uint32_t>& object_ids, const ImageF& mask,
                               bool with_perception = true);
 
-/// Noise of the truth itself: sqrt of the mean squared standard error over the counted pixels, what it adds at most to
+/// Noise of the truth itself: sqrt of the mean squared standard error over the counted pixels, the most that it adds to
 /// an rmse. 0 for hard truth; nothing when no pixel counts.
 [[nodiscard]] std::optional<double> truthNoise(const truth::Visibility& visibility, const Counted& counted);
 

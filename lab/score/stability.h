@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// How steadily masks change along a path of camera or light. What the truth does itself, a shadow that moves with its
-// sun, is no fault: it is taken off. From plain images, whoever drew them.
+// How steadily masks change along a path of camera or light. Changes of the truth itself, such as a shadow that moves
+// with its sun, are subtracted. It takes plain images.
 //
 //     D_t = (M_t - M_{t-1}) - (T_t - T_{t-1})
 //
-// M is the technique's mask and T the truth; what is of t-1 is fetched where the pixel's world point was seen then.
+// M is the technique's mask and T the truth; values of t-1 are fetched where the pixel's world point was seen then.
 // Both are fetched alike and fetching is linear, so with the error e = M - T this is D_t = e_t - fetch(e_{t-1}): an
-// error that stays where it is in the world is no shimmer.
+// error that stays at its place in the world is no shimmer.
 #pragma once
 
 #include "lab/metrics/error.h"
@@ -29,12 +29,12 @@ struct SeenFrame {
     const Counted& counted;
 };
 
-/// Where each pixel of a frame finds its surface in the frame before.
+/// For each pixel of a frame, the place of its surface in the last frame.
 ///
-/// A counted pixel's world point P is projected with the camera before. Of the four pixels whose centres surround that
-/// place, one matches when it counted, saw the same object, and saw it at a point Q no farther off the plane through P
-/// (with P's normal) than a pixel is wide there. A flat surface then always matches, however slanted it is seen; a
-/// step that is not as high as a pixel is wide is not seen as a step; what lies behind or before does not match. Since
+/// A counted pixel's world point P is projected with the last frame's camera. Each of the four pixels whose centres
+/// surround that place matches when it counted, saw the same object, and saw it at a point Q no farther off the plane
+/// through P (with P's normal) than a pixel is wide there. A flat surface then always matches, however slanted it is
+/// seen; a step less high than a pixel is wide does not count as a step; surfaces behind or before do not match. Since
 /// Q lies on a ray at most one pixel in x and y beside P, that bounds its place on the surface too. Single precision of
 /// points adds 2^-22 of the distances to both eyes. Matching pixels are weighed bilinearly, weights made to sum to 1.
 class Reprojection {
@@ -43,7 +43,7 @@ public:
 
     /// Pixels that have a match.
     [[nodiscard]] std::uint64_t matched() const { return matched_; }
-    /// What an image of one channel of the frame before holds at the world point of pixel number `pixel` (rows from the
+    /// The value of the last frame's image of one channel at the world point of pixel number `pixel` (rows from the
     /// top); nothing without a match.
     [[nodiscard]] std::optional<double> fetch(const ImageF& before, std::size_t pixel) const;
 
@@ -56,12 +56,12 @@ private:
     std::uint64_t matched_ = 0;
 };
 
-/// What a frame is held against: the frame before it.
+/// The last frame, with which a frame is compared.
 struct FrameBefore {
-    const Reprojection& match; // onto the frame before as it was seen then: these pixels count
-    /// The error of the frame before as this frame's camera sees it, and the way to it, which is from each pixel to
-    /// itself where that sees the same surface. Null: the error is fetched with `match` from the pixels around, which
-    /// is right where the camera stands still; else edges of shadows differ by what lies between the pixels.
+    const Reprojection& match; // onto the last frame as it was seen then: these pixels count
+    /// The error of the last frame drawn again with this frame's camera, and the match onto it: each pixel maps to
+    /// itself where it sees the same surface. Null: the error is fetched with `match` from the pixels around. That is
+    /// right where the camera stands still; else edges of shadows differ by fractions of a pixel.
     const Reprojection* here = nullptr;
     const ImageF* error_here = nullptr;
 };
@@ -82,13 +82,13 @@ public:
     struct Step {
         std::uint64_t matched = 0;
         double mean_abs = 0.0;     // of D; 0 when nothing matched
-        double mean_squared = 0.0; // likewise
+        double mean_squared = 0.0; // of D; 0 when nothing matched
     };
 
     /// Frames in order. `before`: null at the first. One channel each, of one size. A value that is not a number makes
     /// shimmer and pop NaN, as in errorNumbers().
     void add(const ImageF& mask, const ImageF& truth, const FrameBefore* before);
-    /// One less than frames added.
+    /// The steps; one less than frames added.
     [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
     /// Nothing when no pixel of any step has a match.
     [[nodiscard]] std::optional<Stability> stability() const;

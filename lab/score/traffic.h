@@ -14,23 +14,23 @@
 
 namespace gnomon::lab {
 
-/// Of one texel of a map, colour or depth as the filter reads it.
+/// The bytes of one texel of a map, colour or depth as the filter reads it.
 [[nodiscard]] std::uint32_t texelBytes(MapFormat format);
 
-/// Texels of a view's map and of its kept layer that a frame renders; where a map is restored from a kept layer, what
-/// is drawn over. `redraws_all`: whatever they hold.
+/// Texels of a view's map and of its kept layer that a frame renders; where a map is restored from a kept layer, only
+/// the texels drawn over. `redraws_all`: all maps are drawn.
 [[nodiscard]] std::uint64_t texelsRendered(const View& view, bool redraws_all);
 
-/// What leastBytes() needs to know of a frame besides plan and picture.
+/// The facts of a frame, besides plan and picture, that leastBytes() needs.
 struct TrafficOptions {
     MapFormat format = MapFormat::d32f;
     double reach_texels = 0.5;      // how far the mask pass reads, along x and y each; >= 0.5
     std::uint32_t image_layers = 1; // of one map
     std::uint32_t mip_levels = 1;
-    bool redraws_all = true;      // false: of the views only those that say `redraw` are drawn
+    bool redraws_all = true;      // false: only views that say `redraw` are drawn
     bool reads_object_ids = true; // the mask pass is given object ids
     std::uint32_t samples = 1;    // pixels of the mask for each pixel of the picture
-    // Of leastByPass() alone:
+    // For leastByPass() alone:
     bool filterable = false;         // the map is made of depths by a pass of its own
     std::uint32_t depth_samples = 1; // depths to each of its texels
     bool blurred = false;            // along rows and columns, a pass each
@@ -42,22 +42,22 @@ inline constexpr std::uint64_t kObjectIdBytes = 4; // R32_UINT
 
 /// The bytes that no way of drawing these maps and this mask can do without: each texel that is rendered, written once;
 /// each texel that a pixel facing its light (facingPixels()) reads, read once; and for each pixel of the mask depth,
-/// normal and object id read and the mask written once. Caches that miss, depth tests, clearing and compression play no
-/// part; nor does anything of the host's. A texel of a filterable map is written in every image layer and in the mip
-/// levels above it that its tile has, and read in one; the depths that it is made of and what its blur moves in between
-/// do not count, for they could stay on the chip: the blur has a minimum of its own (FilterCost). With several samples
-/// to a pixel, the texels are those that the pixels' own places read. What a map is restored from is not read here: the
-/// still casters could be drawn again. 0 where the plan has no lights. `lights` are
-/// those of the plan's frame.
+/// normal and object id read and the mask written once. Cache misses, depth tests, clearing, compression and the host's
+/// own passes do not count. A texel of a filterable map is written in every image layer and in the mip levels above it
+/// that its tile has, and read in one; its depths and the traffic of its blur do not count, for they could stay on the
+/// chip: the blur has a minimum of its own (FilterCost). With several samples to a pixel, the texels are those that the
+/// pixels' own places read. Reading the layer that a map is restored from does not count: the still casters could be
+/// drawn again. 0 where the plan has no lights. `lights` are those of the plan's frame.
 [[nodiscard]] std::uint64_t leastBytes(const Sight& seen, std::span<const Light> lights, const Plan& plan,
                                        const TrafficOptions& options);
 
-/// What one pass of a frame works on, and what it cannot do without.
+/// The work of one pass of a frame, and the least bytes that it moves.
 struct PassLeast {
     std::uint64_t texels = 0; // of maps that it makes, or pixels of the mask
     std::uint64_t bytes = 0;
 };
-/// By pass. Nothing where the plan has none of the kind, and where no least is known: the filter's of maps of depths.
+/// The least by pass. Nothing where the plan has no such pass, or where no least is known: the filter of maps of
+/// depths.
 struct LeastByPass {
     std::optional<PassLeast> maps;
     std::optional<PassLeast> filter;
@@ -81,7 +81,7 @@ struct LeastByPass {
 /// its pixels, and writes a byte for each of their channels. With MaskSize::half a quarter as many bytes are written
 /// before and read again.
 ///
-/// `pixels`: of the picture. Views whose maps are not drawn (TrafficOptions::redraws_all) do not count.
+/// `pixels`: of the picture. Views whose maps are not drawn do not count (TrafficOptions::redraws_all).
 [[nodiscard]] LeastByPass leastByPass(const Plan& plan, std::uint64_t pixels, const TrafficOptions& options);
 
 } // namespace gnomon::lab

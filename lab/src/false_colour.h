@@ -32,21 +32,21 @@ inline constexpr double kDensityOctaves = 4.0;
 /// sRGB's code of a linear value, clamped to [0, 1].
 [[nodiscard]] std::uint8_t encodeSrgb(double linear);
 
-/// Of a signed error in [-1, 1], clamped: blue below 0, white at 0, orange above; as light for -e as for e. The scale
-/// is the square root of |e|. NaN has kNotANumber.
+/// The colour of a signed error in [-1, 1], clamped: blue below 0, white at 0, orange above; as light for -e as for e.
+/// The scale is the square root of |e|. NaN has kNotANumber.
 [[nodiscard]] Colour errorColour(double error);
 
-/// Of texels per pixel; 0 and less have kLeftOut, NaN kNotANumber.
+/// The colour of texels per pixel; 0 and less have kLeftOut, NaN kNotANumber.
 [[nodiscard]] Colour densityColour(double texels_per_pixel);
 
-/// Of how many lights reach a pixel: from 1 to 2^kLightOctaves; beyond, the end's. 0 has kLeftOut.
+/// The colour of a number of lights, from 1 to 2^kLightOctaves; beyond, the end's colour. 0 has kLeftOut.
 inline constexpr double kLightOctaves = 5.0;
 [[nodiscard]] Colour lightCountColour(std::uint32_t lights);
 
 /// The full colour of a class of error; kFaintLight for `correct`, kLeftOut for `left_out`.
 [[nodiscard]] Colour classColour(ErrorClass error_class);
 
-/// Of the kind k, from 0; they come again after kMostTints (lab/tint.h).
+/// The colour of a kind, from 0; colours repeat after kMostTints (lab/tint.h).
 [[nodiscard]] Colour tintColour(std::size_t kind);
 
 /// Mixed as light; share_of_b in [0, 1].

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the colours of a picture mean, written below it.
+// The meaning of a picture's colours, written below it.
 #pragma once
 
 #include "false_colour.h"
@@ -19,7 +19,7 @@ struct Tick {
     double place = 0.0; // along the bar, [0, 1]
     std::string label;
 };
-/// A bar of colours with ticks below it. Where labels would touch, those of later ticks are left away: the most
+/// A bar of colours with ticks below it. Where labels would touch, those of later ticks are left out, so the most
 /// important come first.
 struct ScaleBar {
     std::function<Colour(double)> colour_at; // of a place in [0, 1]
@@ -28,7 +28,7 @@ struct ScaleBar {
     std::string middle;
     std::string high;
 };
-/// A box that goes from one colour to another, and what it means.
+/// A box that goes from one colour to another, and its meaning.
 struct Swatch {
     Colour from;
     Colour to;

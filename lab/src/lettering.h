@@ -19,12 +19,12 @@ inline constexpr std::int64_t kLetterHeight = 13;
 /// Width of ASCII `text` in px at scale 1.
 [[nodiscard]] std::int64_t textWidth(std::string_view text, Font font);
 
-/// Writes ASCII `text` with its upper left corner at (x, y), each of the font's pixels a square of `scale` px. What
-/// falls outside the picture is cut. Throws std::bad_alloc when libgd finds no memory.
+/// Writes ASCII `text` with its upper left corner at (x, y), each of the font's pixels a square of `scale` px. Parts
+/// outside the picture are cut. Throws std::bad_alloc when libgd finds no memory.
 void drawText(Image8& picture, std::int64_t x, std::int64_t y, std::string_view text, Font font, std::int64_t scale,
               Colour colour);
 
-/// Cut at the picture's border.
+/// Fills a rectangle, cut at the picture's border.
 void fillRectangle(Image8& picture, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height,
                    Colour colour);
 

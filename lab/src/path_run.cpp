@@ -10,14 +10,14 @@
 namespace gnomon::lab {
 namespace {
 
-/// What a frame leaves for the next.
+/// The data of a frame that the next one needs.
 struct Before {
     Camera camera;
     truth::Surfaces surfaces;
     Counted counted;
 };
 
-/// Where the pixels of a frame find what they see in the frame before.
+/// The matches of a frame's pixels in the last frame.
 struct Matches {
     Reprojection onto_before;
     std::optional<Reprojection> onto_here;

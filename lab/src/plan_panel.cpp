@@ -69,7 +69,7 @@ std::string by(double px)
     return svgNumber(std::round(px * 10.0) / 10.0);
 }
 
-/// A closed shape as part of a path's data. Of what is a few pixels wide, the box around it is as good, and a third as
+/// A closed shape as part of a path's data. A shape of a few pixels is replaced by its box, whose text is a third as
 /// long: a scene may have thousands.
 std::string outlineOf(const Panel& panel, const Polygon& window)
 {
@@ -89,7 +89,7 @@ std::string outlineOf(const Panel& panel, const Polygon& window)
     return d + "z";
 }
 
-/// What is drawn of a polygon; lines along the cut lie outside, where nothing is shown.
+/// The visible part of a polygon. Lines along the cut lie outside, where nothing is shown.
 std::string shapeOf(const Panel& panel, const Polygon& polygon)
 {
     constexpr double kOutside = 1.05;
@@ -171,7 +171,7 @@ std::string drawFrame(const PlanMap& map, const Panel& panel, std::size_t index)
            group("edge", style + " stroke-width=\"2.2\"", pathOf(panel, edge, true));
 }
 
-/// What a map of a light that has them all around may hold, from above.
+/// The pyramid from above that a map covers, of a light with maps all around it.
 std::string drawPyramid(const PlanMap& map, const Panel& panel, std::size_t index)
 {
     Polygon edge;

@@ -21,7 +21,7 @@ struct PlanObject {
     bool drawn = false; // in one of the maps
     bool seen = false;  // by the camera, and receives
 };
-/// A scene as a plane has it.
+/// A scene in a plane.
 struct PlanLook {
     LightPlane plane;
     std::vector<Polygon> shapes;   // of objects, by index
@@ -34,7 +34,7 @@ struct PlanMap {
     glm::dmat3 from_plane{1.0};
     Polygon seen;
     Polygon seen_across;    // the same in the plane of PlanScene::across
-    Polygon outline_across; // of what the map may hold, there
+    Polygon outline_across; // of the part that the map covers, there
     std::vector<std::uint32_t> casters;
 };
 /// All that is drawn.

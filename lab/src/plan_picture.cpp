@@ -75,7 +75,7 @@ Polygon cornersOf(const glm::dmat3& map_from_plane)
     return corners;
 }
 
-/// Of a point light, how high its pyramids are drawn.
+/// The drawn height of a point light's pyramids.
 double reachOf(const Light& light, const ObjectSet& objects)
 {
     const double scene_m = glm::length(glm::dvec3(objects.bounds().extent()));

@@ -70,7 +70,8 @@ void addCorners(const LightPlane& plane, ConvexBody& body, Polygon& points)
     }
 }
 
-/// Of what a view serves: within the camera's sight, its slice, the distance of shadows and the light's cone.
+/// The planes around the space that a view serves: the camera's sight, the view's slice, the distance of shadows and
+/// the light's cone.
 std::vector<Plane> planesOf(const LightPlane& plane, const Frame& frame, const Plan& plan, const View& view)
 {
     const Frustum frustum = frustumFromClip(frame.camera.clip_from_world);
@@ -148,7 +149,7 @@ std::optional<glm::dvec2> LightPlane::project(const glm::dvec3& p_ws) const
 
 glm::dvec3 forwardOf(const Camera& camera)
 {
-    // Of a perspective camera w grows along the view, of an orthographic one z does, or falls.
+    // With a perspective camera w grows along the view; with an orthographic one z grows, or falls.
     const glm::dvec3 w = rowOf(camera.clip_from_world, 3);
     const glm::dvec3 z = rowOf(camera.clip_from_world, 2) * (camera.reversed_z ? -1.0 : 1.0);
     return glm::normalize(glm::length(w) > 0.0 ? w : z);
@@ -159,7 +160,7 @@ LightPlane lightPlaneOf(const View& view, const Camera& camera)
     LightPlane plane;
     plane.perspective = !view.projection.parallel;
     if (view.projection.parallel) {
-        // What a map has at one place is a ray of its light, so no ray changes x or y; depth grows along it. A sun that
+        // A place of a map is a ray of its light, so x and y are constant along a ray, and depth grows. A sun that
         // steps need not stand where the frame's light does.
         const glm::dvec3 ray =
             glm::cross(rowOf(view.projection.clip_from_world, 0), rowOf(view.projection.clip_from_world, 1));

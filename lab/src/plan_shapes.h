@@ -27,12 +27,12 @@ struct LightPlane {
     glm::dvec3 forward_ws{0.0, -1.0, 0.0};
     bool perspective = false;
 
-    /// Nothing for what is not in front of a light with a place.
+    /// Nothing for a point that is not in front of a light with a place.
     [[nodiscard]] std::optional<glm::dvec2> project(const glm::dvec3& p_ws) const;
 };
 /// Across the axis of `view`.
 [[nodiscard]] LightPlane lightPlaneOf(const View& view, const Camera& camera);
-/// The level plane at a light's place, seen from above, in metres: of a light that has maps all around it.
+/// The level plane at a light's place, seen from above, in metres; for a light that has maps all around it.
 [[nodiscard]] LightPlane planeFromAbove(const glm::dvec3& place_ws, const Camera& camera);
 
 /// The unit vector along which the camera looks.
@@ -49,14 +49,14 @@ struct MapInPlane {
     LightPlane plane;
     glm::dmat3 from_plane{1.0};
 };
-/// The pyramid of what a map may hold, `reach_m` high, of a light with a place, as `plane` has it.
+/// The pyramid that a map of a light with a place covers, `reach_m` high, in `plane`.
 [[nodiscard]] Polygon pyramidOf(const LightPlane& plane, const MapInPlane& map, double reach_m);
 
-/// What is in front of the light of a convex body, as the light sees it: convex, counter-clockwise.
+/// The part of a convex body in front of the light, as the light sees it: convex, counter-clockwise.
 [[nodiscard]] Polygon shadowOf(const LightPlane& plane, ConvexBody body);
 
-/// Around what the camera sees of the boxes of the plan's receivers, within a view's slice and the light's reach, as
-/// the light sees it: convex, counter-clockwise. It has to be in the map.
+/// The hull of the visible parts of the plan's receivers' boxes within a view's slice and the light's reach, as the
+/// light sees them: convex, counter-clockwise. The map must contain it.
 [[nodiscard]] Polygon seenFrom(const LightPlane& plane, const Frame& frame, const Plan& plan, const View& view);
 
 /// The part of a convex polygon that `window_from_plane` takes to |x|, |y| <= `half` with w > 0, in the window.

@@ -39,7 +39,7 @@ std::string boxAt(const PixelRect& r, const std::string& style)
            "\" height=\"" + svgNumber(r.height) + "\" " + style + "/>\n";
 }
 
-/// What the panels' lines and fills mean.
+/// The meanings of the panels' lines and fills.
 std::string drawKey(const PlanScene& scene, double x, double y)
 {
     struct Sample {

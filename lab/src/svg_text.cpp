@@ -17,7 +17,7 @@ bool isXmlCharacter(char32_t c)
            (c >= 0x10000 && c <= 0x10FFFF);
 }
 
-/// Takes one character off the front of `text`, which is not empty. What is no UTF-8 goes byte by byte.
+/// Takes one character off the front of `text`, which is not empty. Bytes that are no UTF-8 are taken one by one.
 char32_t takeCharacter(std::string_view& text)
 {
     struct Form {

@@ -24,14 +24,14 @@ constexpr std::array<Colour, kMostTints> kTints{{{230, 159, 0},
                                                  {204, 121, 167},
                                                  {112, 128, 144}}};
 
-// Of light that a surface of no colour would send; Rec. 709.
+// The luminance of light as a colourless surface would send it; Rec. 709.
 double luminance(const std::uint8_t* rgb)
 {
     return 0.2126 * decodeSrgb(rgb[0] / 255.0) + 0.7152 * decodeSrgb(rgb[1] / 255.0) +
            0.0722 * decodeSrgb(rgb[2] / 255.0);
 }
 
-// Shadows keep enough of the colour that it can be told, and what is half as bright to the eye is half as strong.
+// Shadows keep enough of the colour to recognise it. A pixel that is half as bright to the eye has half the strength.
 constexpr double kDarkest = 0.25;
 
 Colour tinted(Colour tint, double light)

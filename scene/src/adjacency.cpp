@@ -129,7 +129,7 @@ MeshClosure closureOf(const Mesh& mesh)
     if (closure.open_edges == 0 || mesh.primitives.size() < 2) {
         return closure;
     }
-    // What is open of one may be closed by another.
+    // An open edge of one primitive may be closed by another.
     std::vector<glm::vec3> positions;
     for (const Primitive& primitive : mesh.primitives) {
         std::ranges::transform(primitive.positions, std::back_inserter(positions),

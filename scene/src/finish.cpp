@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be derived from a scene's data. Tangents based on: E. Lengyel, "Computing Tangent Space Basis Vectors for
-// an Arbitrary Mesh", 2001.
+// Data derived from a scene's other data. Tangents based on: E. Lengyel, "Computing Tangent Space Basis Vectors for an
+// Arbitrary Mesh", 2001.
 #include "scene/state.h"
 
 #include <gnomon/error.h>

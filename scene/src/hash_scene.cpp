@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a scene and of a state is hashed. Every struct is taken apart by a structured binding of all its members, so
-// that a new member does not compile until somebody has decided here whether it counts.
+// The hashes of a scene and of a state. A structured binding names all members of each struct, so that a new member
+// does not compile until somebody has decided here whether it counts.
 #include "scene/hash.h"
 
 #include <cstdint>
@@ -235,9 +235,9 @@ Hash128 sceneHash(const Scene& scene)
 
 Hash128 stateHash(const State& state)
 {
-    // The time is left out: a world that stands still is the same at every moment. The nodes have been used up for
-    // what is hashed. What `advance` keeps for itself says nothing of this moment. How bright lights and sky are
-    // changes no visibility, which is what a state is hashed for.
+    // The time is left out: a world that stands still is the same at every moment. The hashed members already follow
+    // from the nodes. The memory of `advance` does not describe this moment. The brightness of lights and sky changes
+    // no visibility, for which a state is hashed.
     const auto& [time_s, nodes, world_from_node, objects, deformed, lights, cameras, sky, bounds_ws, dynamic_nodes,
                  dynamic_objects, light_and_camera_nodes, joint_matrices, light_strengths, static_bounds_ws] = state;
     Hasher hasher;

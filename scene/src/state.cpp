@@ -215,7 +215,7 @@ State build(const Scene& scene)
             state.cameras.resize(state.cameras.size() + (node.camera != kNone ? 1 : 0));
         }
     }
-    // Whoever draws can then merge neighbours into one instanced draw.
+    // A renderer can then merge neighbours into one instanced draw.
     std::stable_sort(state.objects.begin(), state.objects.end(), [](const Object& a, const Object& b) {
         return std::tie(a.mesh, a.primitive) < std::tie(b.mesh, b.primitive);
     });

@@ -94,7 +94,7 @@ TEST(BenchPasses, AreThoseOfForwardShading)
     EXPECT_NE(refused.err.find("shading pcf+blur"), std::string::npos) << refused.err;
 }
 
-/// Of several techniques it would be long.
+/// With several techniques the table would be long.
 TEST(BenchPasses, AreATableOfOneTechnique)
 {
     const test::Folder folder;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who casts and who receives, for whom: a file's extras, --set object and --set light-groups, held against the truth;
-// and the notices about what takes all of a light.
+// Which objects cast and receive, for which lights: a file's extras, --set object and --set light-groups, compared with
+// the truth; and the notices about objects that take all of a light.
 #include "folder.h"
 #include "process.h"
 
@@ -190,7 +190,7 @@ TEST(Casting, OfAnotherLightStays)
     EXPECT_NEAR(mean({"--truth", "hard", "--set", "light-groups=lamp:0+5"}), shaded, 0.01);
 }
 
-/// Of the floor, which is lit all over then; the box still receives. As much is left of the light as in the truth.
+/// The floor is lit all over then; the box still receives. The light equals the truth's.
 TEST(Casting, NothingIsReceivedWhereItIsSaid)
 {
     const Yard there(yard());
@@ -295,7 +295,7 @@ TEST(TakenLight, BulbAroundItsLampIsNamed)
     EXPECT_FALSE(tells(noticesOf(gltf), "bulb")) << "a shade that is open below";
 }
 
-/// What is in a room with its lamp is lit, whether or not somebody looks at it from there.
+/// A room with its lamp inside is lit, whether or not the camera is in it.
 TEST(TakenLight, RoomAroundItsLampIsNone)
 {
     json gltf = yard();

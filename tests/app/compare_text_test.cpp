@@ -106,7 +106,7 @@ struct Place {
 const std::vector<std::string> kQuick{"--warmup",     "0",    "--repetitions", "1",
                                       "--techniques", "hard", "--map-size",    "64"};
 
-/// What a run shows is in its result.json, and can be made of it again.
+/// All output of a run is in its result.json, and can be made from it again.
 TEST(Compare, TableAndPageAreMadeOfTheJson)
 {
     const Place place;

@@ -148,7 +148,7 @@ protected:
 
 class Bash : public Shells {
 protected:
-    /// What bash would offer at the end of the line.
+    /// The words that bash offers at the end of the line.
     [[nodiscard]] Words after(const std::string& line) const
     {
         return linesOf("bash", "source <(gnomon completion bash)\n"

@@ -38,7 +38,7 @@ TEST(Converge, comesNearerToTheTruthWithEachDoubling)
         for (std::size_t i = 1; i < rmse.size(); ++i) {
             EXPECT_LE(rmse[i], rmse[i - 1]) << line["technique"] << " at " << i;
         }
-        // Of frames that all count as much, raymarch's mean has 0.77 of the first one's error here.
+        // With frames of equal weight, raymarch's mean has 0.77 of the first one's error here.
         const bool is_soft = line["technique"].get<std::string>().starts_with("raymarch");
         EXPECT_LT(rmse.back(), (is_soft ? 0.65 : 0.8) * rmse.front()) << line["technique"];
     }

@@ -109,7 +109,7 @@ TEST(EqualError, FindsAPcfThatErrsNoMore)
     }
 }
 
-/// What a smaller map would give is not left untried: the rung before the match errs more, drawn by itself.
+/// No smaller map is left untried: the rung before the match errs more, drawn by itself.
 TEST(EqualError, TheNextCheaperPcfErrsMore)
 {
     const auto result = compared({"--techniques", "hard+map-size=64"});

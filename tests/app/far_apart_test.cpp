@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A box on a plate, and the same so many metres from there.
+/// A box on a plate, and a copy of both `apart_m` metres away.
 json twoPlaces(double apart_m)
 {
     json gltf = json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2, 3]}],

@@ -136,7 +136,7 @@ struct Shape {
     double upright = 0.5;   // where the line is that stays upright, from the least to the greatest place across
 };
 
-/// Of the map that holds all places exactly, without any border; `least` if it has no more than that.
+/// The density of the map that holds all places exactly, without any border; at least `least`.
 double densityOf(const Seen& seen, const Shape& shape, double least)
 {
     const glm::dvec2 along(std::cos(shape.angle_rad), std::sin(shape.angle_rad));

@@ -69,7 +69,7 @@ TEST(Interrupt, EndsFramesAndKeepsTheWholeOnes)
     EXPECT_LT(count, 100000U);
 }
 
-/// Whoever reads what the program writes has stopped reading, or never starts.
+/// The reader of the program's output has stopped reading, or never starts.
 TEST(Interrupt, EndsAWaitForAReader)
 {
     const test::Folder folder;

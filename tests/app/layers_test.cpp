@@ -161,7 +161,7 @@ TEST(DebugLayers, ColoursReceiversByTheirLayer)
     EXPECT_LT(shareOf(flat, 180, Hue::orange), 0.01);
 }
 
-/// What is above the legend: a map of 128 x 128 texels, each two pixels wide, in the middle of 320.
+/// The part above the legend: a map of 128 x 128 texels, each two pixels wide, in the middle of 320.
 ImageF mapIn(const ImageF& picture)
 {
     ImageF map(128, 128, picture.channels);

@@ -72,7 +72,7 @@ TEST(List, HasEveryNameOnAtMostAHundredColumns)
     for (const ChoiceValue& row : choiceValues()) {
         section += app::valueText(row);
     }
-    // What one long list had before is in its parts.
+    // The parts have all that one long list had before.
     for (const app::Setting& setting : app::settingTable()) {
         EXPECT_TRUE(has(section, "\n  " + std::string(setting.key) + " ")) << setting.key;
     }

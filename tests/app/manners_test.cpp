@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a file gets that says nothing of camera, light and ground: a picture that it fills, a sun, and something to
-// stand on.
+// The defaults of a file without camera, light and ground: a picture that it fills, a sun, and a ground.
 #include "folder.h"
 #include "process.h"
 
@@ -86,7 +85,7 @@ app::Shot shotOf(const std::vector<std::string>& arguments)
     return app::makeShot(settingsOf(arguments));
 }
 
-/// What of the picture vertices cover, from -1 to 1 both ways.
+/// The part of the picture that vertices cover, from -1 to 1 both ways.
 struct Covered {
     glm::dvec2 least{1e9};
     glm::dvec2 most{-1e9};

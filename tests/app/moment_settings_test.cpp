@@ -20,7 +20,7 @@ app::Settings settingsOf(const std::vector<std::string>& arguments)
     return app::parseCommandLine(arguments).settings;
 }
 
-/// Of `plan planes --filter FILTER --set EACH`.
+/// The settings of `plan planes --filter FILTER --set EACH`.
 app::Settings set(const std::string& filter, const std::vector<std::string>& each)
 {
     std::vector<std::string> arguments{"plan", "planes", "--filter", filter};

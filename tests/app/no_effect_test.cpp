@@ -165,7 +165,7 @@ std::vector<std::string> with(std::vector<std::string> arguments, const std::vec
     return arguments;
 }
 
-/// What is told goes to standard error alone, in the order of the options' table, and changes no byte of the result.
+/// Notices go to standard error alone, in the order of the options' table, and change no byte of the result.
 TEST(NoEffects, LeaveTheResultAsItIs)
 {
     const test::Folder folder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program says of wishes that do not do what one may think.
+// The program's notices about options that do not do what one may think.
 #include "folder.h"
 #include "process.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the world outside of the program may lack: a driver, room on the disk, the right to read.
+// Things that the world outside of the program may lack: a driver, room on the disk, the right to read.
 #include "folder.h"
 #include "wrong_usage.h"
 

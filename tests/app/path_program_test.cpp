@@ -28,7 +28,7 @@ struct Place {
         return test::gnomon(arguments,
                             {.folder = folder.path(), .environment = {{"XDG_CACHE_HOME", cache.path().string()}}});
     }
-    /// Of `compare planes --truth hard` at a small size.
+    /// The result of `compare planes --truth hard` at a small size.
     [[nodiscard]] json compare(const std::vector<std::string>& more) const
     {
         std::vector<std::string> arguments{"compare", "planes", "--size", "160x90", "--truth", "hard", "--json=-"};
@@ -55,7 +55,7 @@ TEST(PathProgram, RenderDrawsTheFrames)
     EXPECT_FALSE(fs::exists(place.folder / "walk/frame_0004.png"));
 }
 
-/// Of a picture there is the last frame alone, with what the frames before it left behind.
+/// A single picture has the last frame, with the state that earlier frames left.
 TEST(PathProgram, RenderDrawsTheLastFrameIntoAPicture)
 {
     const Place place;
@@ -232,7 +232,7 @@ TEST(PathProgram, BenchTimesTheFrames)
     EXPECT_EQ(result["results"][0]["static_mean_texels_rendered"], 2 * 64.0 * 64.0); // sun and spot
 }
 
-// Of sun and spot one is drawn in a frame, by turns.
+// Sun and spot are drawn by turns, one in a frame.
 TEST(PathProgram, SaysThatLightsWait)
 {
     const Place place;

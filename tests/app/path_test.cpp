@@ -70,7 +70,7 @@ TEST(Path, MovesByAFewPixelsAFrame)
         for (int frame = 0; frame < 150; ++frame) {
             const host::Eye now = pathAt(path, frame / kFps).eye;
             const host::Eye next = pathAt(path, (frame + 1) / kFps).eye;
-            // What stands at the distance looked at, half way from the middle to the picture's rim.
+            // Points at the distance of the target, half way from the middle to the picture's rim.
             const glm::dvec3 middle = now.position_ws + glm::normalize(now.target_ws - now.position_ws) * path.focus_m;
             for (const double side : {-1.0, 0.0, 1.0}) {
                 const glm::dvec3 point = middle + path.right_ws * (side * 0.25 * path.focus_m);

@@ -106,7 +106,7 @@ TEST(PathOfTheDay, CountsWhatIsNotDrawnAgain)
     EXPECT_LT(stepped["maps_drawn"].get<double>() + stepped["kept_maps_drawn"].get<double>(), 0.5);
 }
 
-/// What a technique keeps from frame to frame is handed from one to the next without a message of the layer.
+/// Techniques hand their state from frame to frame without a message of the validation layer.
 class ValidPath : public testing::TestWithParam<const char*> {};
 
 TEST_P(ValidPath, IsSilent)

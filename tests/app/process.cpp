@@ -24,17 +24,17 @@ namespace {
 
 using Variables = std::vector<std::pair<std::string, std::string>>;
 
-/// What a run's environment has besides ours.
+/// The variables that a run's environment has besides ours.
 Variables variablesOf(const How& how)
 {
     static const Folder cache;
-    // What Mesa compiles is kept from run to run: it is no part of what is tested, and dear.
+    // Mesa's compiled shaders are kept from run to run: they are not under test, and take long.
     Variables variables{{"XDG_CACHE_HOME", cache.path().string()}, {"MESA_SHADER_CACHE_DIR", GNOMON_DRIVER_CACHE}};
     variables.insert(variables.end(), how.environment.begin(), how.environment.end());
     return variables;
 }
 
-/// Our own variables with `changed` ones in the place of those of the same names; of one name the last counts.
+/// Our own variables, with those of `changed` in place of ones of the same names; the last one of a name counts.
 std::vector<std::string> environmentWith(const Variables& changed)
 {
     std::vector<std::string> lines;

@@ -21,7 +21,7 @@ struct Ran {
     [[nodiscard]] std::vector<std::string> errorLines() const;
 };
 
-/// Where a stream of the program's goes.
+/// The target of a stream of the program.
 enum class Stream : std::uint8_t {
     caught, // to Ran
     closed,
@@ -33,18 +33,18 @@ enum class Stream : std::uint8_t {
 struct How {
     std::filesystem::path folder;                                 // working folder
     std::vector<std::pair<std::string, std::string>> environment; // added to ours
-    bool in_process = true; // false: the built program; so too whenever one of the following asks for it
+    bool in_process = true; // false: the built program, which any of the following needs too
     rlim_t max_file_bytes = RLIM_INFINITY;
     Stream out = Stream::caught;
     Stream err = Stream::caught;
-    int signal = 0;                    // 0: none is sent; else once both of these are so
+    int signal = 0;                    // 0: none is sent; else sent once both of these hold
     std::string signal_at;             // standard error has this
     std::filesystem::path signal_when; // there is such a file; empty: need not be
 };
 
 /// In this process the working folder, the environment and the descriptors of standard output and error are the
-/// program's while it runs, so no other thread may need them. Truths are kept in a folder of the test program's own,
-/// never in the user's, unless the environment says where.
+/// program's while it runs, so no other thread may need them. Truths are kept in a folder of the test program, never in
+/// the user's, unless `environment` names one.
 [[nodiscard]] Ran gnomon(const std::vector<std::string>& arguments, const How& how);
 
 } // namespace gnomon::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program does when it is asked rightly.
+// The program's work when it is used rightly.
 #include "folder.h"
 #include "lights_and_cameras.h"
 #include "process.h"
@@ -264,7 +264,7 @@ TEST(Bench, ReportIsAPageMadeOfItsJson)
     EXPECT_EQ(json::parse(repeated.out), json::parse(test::slurp(folder / "out/result.json")));
 }
 
-/// What throws no shadow is the cheapest of all.
+/// A technique without shadows would seem the cheapest of all.
 TEST(Bench, SaysWhoseLightsHaveNoShadow)
 {
     const test::Folder folder;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pages of reports are well-formed, carry every string as text, and ask for nothing from elsewhere. What they do in
-// a browser is tested in tests/page.
+// The pages of reports are well-formed, carry every string as text, and load nothing from elsewhere. tests/page tests
+// them in a browser.
 #include "bench_page.h"
 #include "compare_page.h"
 
@@ -125,7 +125,7 @@ TEST(ReportPage, TheReaderOfTagsSeesMistakes)
     EXPECT_NE(readTags("<p class=\"").error, "");
 }
 
-/// What is neither style nor script: all that has the result's strings but for what the scripts read.
+/// The page without style and scripts: all parts with the result's strings except the data of the scripts.
 std::string textOf(const std::string& page)
 {
     const std::size_t body = page.find("<body");

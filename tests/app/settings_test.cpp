@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the options of truth and comparison become.
+// The settings from options of truth and comparison.
 #include "folder.h"
 
 #include "app/command_line.h"
@@ -177,7 +177,7 @@ TEST(Settings, TheLightsSizeIsForTechniquesThatLookAtIt)
     EXPECT_EQ(toldOf("hard,pcf+converge"), 0U);
 }
 
-// A preset is handed on; what is overwritten here is not for whoever wrote it to say.
+// Presets are handed on, so their authors must not choose which files are overwritten here.
 TEST(Settings, OfAPresetNameNothingThatIsWritten)
 {
     const test::Folder folder;

@@ -66,7 +66,7 @@ TEST(StepSettings, AreWithinThePlannersRanges)
     EXPECT_LE(with({{"step.angle", "28"}}).shadow.steps.angle_rad, 0.5);
 }
 
-/// What each motion asks of its options.
+/// The options that each motion uses.
 TEST(StepSettings, AreOfUseWithTheirMotionAlone)
 {
     const auto isUsed = [](const char* key, const char* motion, const char* by) {

@@ -30,7 +30,7 @@ TEST(TechniqueOption, IsTheSameAsItsParts)
     }
 }
 
-/// What `compare` prints of any technique is one that the option takes.
+/// The option takes the text that `compare` prints for any technique.
 TEST(TechniqueOption, TakesWhatComparePrints)
 {
     for (const app::Settings& technique : app::contestants(settingsOf({"compare", "--techniques", "all"}))) {
@@ -102,7 +102,7 @@ protected:
         test::spill(folder / "list.txt", text);
         return "@" + (folder / "list.txt").string();
     }
-    /// What is said of it.
+    /// The message of the refusal.
     [[nodiscard]] std::string refusalOf(const std::string& text) const
     {
         try {
@@ -164,7 +164,7 @@ TEST_F(TechniqueFile, ThatIsHostileIsAnErrorAndNoCrash)
         bytes += static_cast<char>((i * 2654435761U) >> 13U);
     }
     EXPECT_THROW((void)settingsOf({"compare", "--techniques", of(bytes)}), app::UsageError);
-    // Who runs a preset would not see which file it reads.
+    // The user of a preset would not see which file it reads.
     test::spill(folder / "preset.json", R"({"techniques": "@list.txt"})");
     EXPECT_THROW((void)settingsOf({"compare", "--preset", (folder / "preset.json").string()}), app::UsageError);
 }

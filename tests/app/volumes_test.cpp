@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program says of casters whose shadow volumes cannot be counted, and of those without fins.
+// The program's messages about casters whose shadow volumes cannot be counted, and about those without fins.
 #include "folder.h"
 #include "process.h"
 

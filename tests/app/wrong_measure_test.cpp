@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be done wrong with sweeps and with metrics of images.
+// Wrong uses of sweeps and of metrics of images.
 #include "wrong_usage.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be done wrong with techniques: values and settings that cannot be had, alone or together.
+// Wrong uses of techniques: values and settings that cannot be had, alone or together.
 #include "wrong_usage.h"
 
 #include <gtest/gtest.h>

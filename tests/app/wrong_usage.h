@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A command line that is wrong, and what is to come of it.
+// A wrong command line, and its expected result.
 #pragma once
 
 #include "process.h"
@@ -17,13 +17,13 @@ struct Wrong {
     std::string says; // part of the line
 };
 
-/// What googletest prints of a failed case, instead of its bytes.
+/// The text of a failed case for googletest, instead of its bytes.
 void PrintTo(const Wrong& wrong, std::ostream* out);
 
 /// One line of the program's on standard error, and nothing on standard output.
 void expectOneLine(const Ran& ran, int status, const std::string& says);
 
-/// The same in a folder that has a few files to be wrong about, to which nothing is added.
+/// expectOneLine() in a folder with a few files to name wrongly. Nothing may be added to the folder.
 void expectOneLineAndNothingLeft(const Wrong& wrong, bool in_process);
 
 } // namespace gnomon::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be done wrong with subcommands, options, files and values: one clear line on stderr, the right exit status,
-// nothing left behind.
+// Wrong uses of subcommands, options, files and values: one clear line on stderr, the right exit status, nothing left
+// behind.
 #include "wrong_usage.h"
 
 #include <gtest/gtest.h>
@@ -122,7 +122,7 @@ TEST_P(WrongUsage, IsOneLineAndLeavesNothing)
 INSTANTIATE_TEST_SUITE_P(Table, WrongUsage, testing::ValuesIn(kWrong),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// The same of the built program.
+/// Wrong uses of the built program.
 class WrongUsageOfTheProgram : public testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongUsageOfTheProgram, IsOneLineAndLeavesNothing)

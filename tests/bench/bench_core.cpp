@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What planning costs, and how that grows with the number of objects. Scenes keep their density: ten times the objects
+// The cost of planning, and its growth with the number of objects. Scenes keep their density: ten times the objects
 // cover ten times the ground, and the camera rises until it sees all of it.
 #include <gnomon/planner.h>
 

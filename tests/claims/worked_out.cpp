@@ -46,7 +46,7 @@ double worstInterpolation(const F& f)
     return worst;
 }
 
-/// Of the spacing of floats at `depth`; below 1.
+/// The spacing of floats at `depth`, which is below 1.
 double floatStepAt(double depth)
 {
     const auto at = static_cast<float>(depth);
@@ -133,7 +133,7 @@ double densityAtEdge(double fov_deg)
     return 1.0 / (cosine * cosine);
 }
 
-/// One step of depth at the far plane, in metres, near 0.1 m and far 1000 m, in so many bits.
+/// One step of depth of `bits` bits at the far plane, in metres, with near 0.1 m and far 1000 m.
 double stepOfBits(int bits)
 {
     return std::exp2(-bits) * (kFar_m - kNear_m);
@@ -191,8 +191,8 @@ double errorOfBytes()
     });
 }
 
-/// Of the fifteen taps of the published blur: the sum of their weights, where their centre lies in pixels, and the
-/// weight of the right side by that of the left.
+/// The fifteen taps of the published blur: the sum of their weights, their centre in pixels, and the weight of the
+/// right side divided by that of the left.
 struct PublishedBlur {
     double sum = 0.0;
     double centre_px = 0.0;
@@ -215,7 +215,7 @@ PublishedBlur publishedBlur()
     return {sum, moment / sum, right / left};
 }
 
-/// Texels between the published taps of a kernel, whose offsets are divided by w, so many metres from the lamp.
+/// Texels between the published taps of a kernel, whose offsets are divided by w, `distance_m` metres from the lamp.
 double publishedTapsApart(double distance_m)
 {
     return 1.0 / distance_m; // w is the depth along the lamp's axis

@@ -56,7 +56,7 @@ fs::path manifest()
     return {};
 }
 
-/// What we call the figures that we look at, and what RADV does.
+/// Our names of the figures, and RADV's.
 constexpr std::pair<const char*, const char*> kFigures[] = {{"VGPRs", "VGPRs"},
                                                             {"SGPRs", "SGPRs"},
                                                             {"spilled VGPRs", "Spilled VGPRs"},
@@ -120,7 +120,7 @@ bool AmdDevice::makeDevice(std::string& why)
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
     vkGetPhysicalDeviceProperties2(physical_device_, &properties);
     driver_ = driver.driverInfo;
-    // What a host turns on that takes what the library says, and no more: robust access would cost instructions.
+    // The features of a host that follows the library's advice, and no more: robust access would cost instructions.
     VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR says{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR};
     says.pipelineExecutableInfo = VK_TRUE;

@@ -13,7 +13,7 @@
 
 namespace gnomon::compiled {
 
-/// What the compiler says of one stage: VGPRs and SGPRs, spilled VGPRs and SGPRs, scratch bytes and LDS bytes, waves
+/// The compiler's figures of one stage: VGPRs and SGPRs, spilled VGPRs and SGPRs, scratch bytes and LDS bytes, waves
 /// that fit in a SIMD, instructions, code bytes.
 using Figures = std::map<std::string, std::uint64_t>;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a real compiler makes of every pipeline of the library: registers, spills, waves and instructions on two chips
-// of AMD that need not be there, held to recorded.json. After a change that is meant to move them:
+// A real compiler's figures of every pipeline of the library: registers, spills, waves and instructions on two chips of
+// AMD that need not be there, compared with recorded.json. After a change that is meant to move them:
 // GNOMON_COMPILED_UPDATE=1 test_compiled writes it anew.
 #include "library_pipelines.h"
 #include "recorded_stages.h"

@@ -19,12 +19,12 @@ using vulkan::CasterBatch;
 using vulkan::CasterDrawer;
 using vulkan::ShadowRenderer;
 
-/// Of each filter, for any number of lights.
+/// Each filter, for any number of lights.
 constexpr const char* kFilters[] = {"filter=hard", "filter=pcf",     "filter=pcss",     "filter=raymarch",
                                     "filter=vsm",  "filter=lvsm",    "filter=esm",      "filter=evsm",
                                     "filter=msm",  "filter=volumes", "filter=smoothies"};
 constexpr const char* kFiltersOfIds[] = {"filter=id", "filter=depth-id"}; // and of one light, for the rest is the same
-/// What other choices add. Of one light: several differ by what the lines above have.
+/// Pipelines that other choices add, for one light; for several lights they differ as those of kFilters do.
 constexpr const char* kFurther[] = {"filter=pcf pcf.kernel=2x2",
                                     "filter=pcf pcf.kernel=7x7",
                                     "filter=pcf pcf.kernel=vogel",

@@ -8,8 +8,8 @@ class NullDriver;
 }
 namespace gnomon::compiled {
 
-/// Has the library make its pipelines: those of every choice, by the library's own code, which is given `view`. What it
-/// records goes to the driver's command buffer.
+/// Lets the library make its pipelines for every choice, by its own code, which gets `view`. Its commands go to the
+/// driver's command buffer.
 void makeLibraryPipelines(const vulkan::DeviceView& view, test::NullDriver& driver);
 
 } // namespace gnomon::compiled

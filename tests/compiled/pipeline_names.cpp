@@ -106,7 +106,7 @@ const Info* chained(const void* next, VkStructureType type)
     return nullptr;
 }
 
-/// What the pipeline draws to, and how.
+/// The targets of a pipeline, and how it draws to them.
 std::string targetsText(const VkGraphicsPipelineCreateInfo& info)
 {
     const auto* const rendering =

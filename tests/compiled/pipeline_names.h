@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pipeline is called: by its modules, and by what else makes a compiler's code another one.
+// The names of pipelines: by their modules, and by all else that changes a compiler's code.
 #pragma once
 
 #include <vulkan/vulkan.h>

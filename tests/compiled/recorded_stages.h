@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a compiler made of every pipeline when it was recorded: recorded.json, and what has changed since.
+// The recorded figures of every pipeline (recorded.json), and the changes since.
 #pragma once
 
 #include "pipeline_ear.h"
@@ -17,7 +17,7 @@ struct RecordedStages {
 
 /// Empty where there is no such file.
 [[nodiscard]] RecordedStages readRecorded(const std::string& file);
-/// A line for each stage and chip, so that changes are seen in a diff. What is 0 everywhere is left out.
+/// A line for each stage and chip, so that a diff shows changes. Figures that are 0 everywhere are left out.
 [[nodiscard]] std::string recordedText(const RecordedStages& recorded);
 
 /// A line for each figure that is another one, and for each stage that only one of them has.

@@ -59,7 +59,7 @@ TEST(Allocation, SteadyStatePlansTakeNothingFromTheHeap)
     }
 }
 
-/// What auto remembers goes on for some laps before one is as the last.
+/// The memory of auto goes on for some laps before one equals the last.
 TEST(Allocation, SteadyStatePlansOfAutoTakeNothingFromTheHeap)
 {
     test::Random random(22);

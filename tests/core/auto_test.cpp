@@ -114,7 +114,7 @@ TEST(AutoPrediction, IsTheJacobianOfTheMapsOwnMatrix)
     }
 }
 
-/// Of all strengths, by hand: none errs hardly less than the one that is found.
+/// Tries all strengths by hand: none errs noticeably less than the one that is found.
 TEST(AutoPrediction, TheStrengthFoundIsTheBestOne)
 {
     for (const double height_m : {1.7, 6.0, 30.0}) {

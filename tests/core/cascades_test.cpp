@@ -144,7 +144,7 @@ TEST(Cascades, OfAnOrthographicCameraAreEven)
     EXPECT_NEAR(2.0 * first - second, nearest, 0.1 * (second - first));
 }
 
-/// Whoever looks wherever: what is seen and lit is in the map of every view whose slice holds it, and in one at least.
+/// For any camera, each seen and lit point is in the map of every view whose slice holds it, and in one at least.
 TEST(Cascades, HoldWhatTheyServe)
 {
     int checked = 0;

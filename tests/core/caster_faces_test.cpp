@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What cannot go with which surfaces of casters, and that a midpoint keeps nothing apart.
+// The options that refuse a choice of casters' surfaces, and that a midpoint keeps nothing apart.
 #include <gnomon/option_table.h>
 
 #include <gtest/gtest.h>

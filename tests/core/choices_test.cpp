@@ -170,7 +170,7 @@ TEST(Choices, WhatConvergesIsNotHeldStill)
     }
 }
 
-// No light can have it, and whoever has a point light does not read of suns.
+// No light can have it, so the message for a point light does not speak of suns.
 TEST(Choices, WhatNoLightCanHaveIsNotBlamedOnTheLight)
 {
     const Technique technique{.partition = Partition::cube, .soften = Soften::converge, .motion = Motion::snap};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What soften=converge moves from frame to frame, and what a plan says of it.
+// The moves of soften=converge from frame to frame, and the plan's account of them.
 #include "worlds.h"
 
 #include <gnomon/converge.h>

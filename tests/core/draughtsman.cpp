@@ -16,7 +16,7 @@ std::uint64_t mixed(std::uint64_t a, std::uint64_t b)
     return Random(a * 31 + b).bits();
 }
 
-/// Of a view's matrix and metric, which all that is drawn depends on.
+/// A mark of a view's matrix and metric, on which all that is drawn depends.
 std::uint64_t markOf(const View& view)
 {
     std::uint64_t mark = view.projection.clamp_near ? 1 : 0;

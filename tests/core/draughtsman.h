@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws as a plan says, into pages whose texels are sums of marks of what was drawn there.
+// Draws as a plan says, into pages whose texels are sums of the marks of casters drawn there.
 #pragma once
 
 #include <gnomon/object_set.h>
@@ -16,12 +16,12 @@ namespace gnomon::test {
 
 class Draughtsman {
 public:
-    /// A strict one expects of every plan that it presumes what is there. One that isn't may have skipped plans: it
-    /// draws whole what it does not have, as ViewContents::presumes has it.
+    /// A strict one expects every plan to presume the contents that it has. Else it may have skipped plans, and draws
+    /// contents that it lacks in full, as ViewContents::presumes has it.
     explicit Draughtsman(bool strict = true) : strict_(strict) {}
 
     void follow(const Plan& plan, const ObjectSet& set);
-    /// Every map that is read holds what drawing it from scratch gives.
+    /// Every map that is read holds the result of drawing it from scratch.
     void check(const Plan& plan, const ObjectSet& set) const;
     /// The texels are gone.
     void lose(const View& view, bool kept);
@@ -33,7 +33,7 @@ public:
 
 private:
     using Image = std::vector<std::uint64_t>;
-    /// Of one options' pages: those of kept copies apart, and the parts of their texels.
+    /// A page of one options, kept copies apart, and a part of its texels.
     using Place = std::tuple<std::uint32_t, bool, TexelPart, std::uint32_t>;
     struct Page {
         std::uint32_t side = 0;
@@ -63,7 +63,7 @@ private:
     std::set<ContentNumber> given_;
 };
 
-/// Places are no two views', names neither, and casters are in order.
+/// No two views have the same place or name, and casters are in order.
 void expectOrder(const Plan& plan, const ObjectSet& set);
 
 } // namespace gnomon::test

@@ -101,7 +101,7 @@ TEST(DrawRate, BoundsWhatAFrameDraws)
     EXPECT_LE(mostDrawn({.draw_budget_ms = 1.0, .longest_wait = 64}, 1e-5, longest), 100000U);
     EXPECT_GT(longest, 0U);
     EXPECT_LE(mostDrawn({.draw_budget_ms = 0.5, .longest_wait = 64}, 1e-5, longest), 50000U);
-    // Of two bounds the tighter one.
+    // The tighter one of two bounds holds.
     EXPECT_LE(mostDrawn({.draw_budget_texels = 50000, .draw_budget_ms = 1.0, .longest_wait = 64}, 1e-5, longest),
               50000U);
     EXPECT_LE(mostDrawn({.draw_budget_texels = 100000, .draw_budget_ms = 0.5, .longest_wait = 64}, 1e-5, longest),

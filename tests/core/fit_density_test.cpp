@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the warps are for: how many texels the pixels of a long view of ground get, and how little that changes from
-// frame to frame. Figures are recorded as properties of the tests.
+// The purpose of the warps: the texels of pixels in a long view of ground, and how little they change from frame to
+// frame. Figures are recorded as properties of the tests.
 #include "fit_stage.h"
 
 #include <gtest/gtest.h>

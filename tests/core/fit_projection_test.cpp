@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a warped map's border shows, and how strong a warp it bears.
+// The border of a warped map, and the strongest warp that it allows.
 #include "fit_stage.h"
 
 #include "fit/projection.h"

@@ -61,7 +61,7 @@ TEST(FitScene, TheLightStandsWhereEquation6PutsIt)
     const glm::dvec3 back = sum / 8.0 - view.projection.light_place_ws;
     const double distance = glm::dot(back, dir);
     EXPECT_LT(glm::length(back - dir * distance), 1e-9) << "backed out against the light and nowhere else";
-    // As far as it needs to be for all corners to be in front, and no farther but for rounding.
+    // As far as needed for all corners to be in front, and no farther except for rounding.
     double nearest = 1e9;
     for (int i = 0; i < 8; ++i) {
         nearest = std::min(nearest, glm::dot(dir, glm::dvec3(box.corner(i)) - view.projection.light_place_ws));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of the fits share: a scene on one stage, as the planner sees it and as a fit does.
+// Shared by the tests of the fits: a scene as the planner sees it and as a fit does.
 #pragma once
 
 #include "worlds.h"
@@ -47,7 +47,7 @@ inline Stage levelGround(double pitch_rad = 0.0, const glm::dvec3& origin = glm:
     return stage;
 }
 
-/// What the planner hands to a fit.
+/// The planner's input of a fit.
 struct FitStage {
     CameraView view;
     LightSpace space;

@@ -116,7 +116,7 @@ TEST(Groups, LeaveOthersOutOfEveryMapOfEveryPartition)
     EXPECT_GE(with_maps, 60);
 }
 
-/// What casts in no group is in no map, even of a filter that draws receivers.
+/// An object in no group is in no map, not even in that of a filter that draws receivers.
 TEST(Groups, NoneAtAllIsNoCaster)
 {
     for (const Filter filter : {Filter::pcf, Filter::vsm, Filter::id}) {

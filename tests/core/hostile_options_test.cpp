@@ -40,7 +40,7 @@ std::string saidOf(const OptionRow& row, double value)
     return std::string(row.key) + "=" + textOf(row, valueOf(value));
 }
 
-/// Of every row, so of those to come as well.
+/// Tries every row, and so future ones as well.
 TEST(HostileOptions, EveryRowBeyondItsRangeIsRefused)
 {
     std::size_t tried = 0;

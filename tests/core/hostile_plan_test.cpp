@@ -113,7 +113,7 @@ TEST(HostileFrame, FieldsOfViewAndPlanesOfAnySizeAreDegenerateOrSound)
     }
 }
 
-/// What a hostile number may be written to, of a light.
+/// The numbers of a light that may be hostile.
 std::vector<double*> numbersOf(Light& light)
 {
     return {&light.position_ws.x,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A world that hostile options, frames and lights are tried on, and what of its plans must hold whatever is asked.
+// A world for hostile options, frames and lights, and the properties that all its plans must have.
 #pragma once
 
 #include "worlds.h"
@@ -67,7 +67,7 @@ inline void expectDrawable(const Plan& plan, const View& view)
     EXPECT_FALSE(std::isnan(view.serves.slice.begin_m) || std::isnan(view.serves.slice.end_m));
 }
 
-/// What a light has is drawable, and what it has not has a reason.
+/// All views of a light are drawable, and a light without views has a reason.
 inline void expectSound(const Plan& plan, std::size_t lights)
 {
     ASSERT_EQ(plan.lights.size(), lights);

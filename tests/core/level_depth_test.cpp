@@ -129,7 +129,7 @@ TEST(LevelDepth, FilterableMapsHoldTheirReceivers)
     EXPECT_EQ(std::count(drawn.casters.begin(), drawn.casters.end(), 0U), 1);
 }
 
-// What does not cast, and is drawn for its own shadows alone, would shade what is behind it.
+// An object that does not cast, drawn for its own shadow alone, would shade objects behind it.
 TEST(LevelDepth, ReceiversThatDoNotCastAreLeftOutUnlessTheCameraSeesThem)
 {
     Ground ground;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the zeros of a light stand for, and how much of a tile a filter can use.
+// The meaning of a light's zeros, and the part of a tile that a filter can use.
 #include "worlds.h"
 
 #include <gnomon/planner.h>

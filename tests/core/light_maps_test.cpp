@@ -15,7 +15,7 @@
 namespace gnomon {
 namespace {
 
-/// Of a light's maps.
+/// The maps of a light and their contents.
 struct Have {
     std::vector<MapId> maps;
     std::vector<ContentNumber> hold;

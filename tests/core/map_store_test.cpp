@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who draws as the plan says has the same maps as one who draws all of them in every frame.
+// A host that draws as the plan says has the same maps as one that draws all of them in every frame.
 #include "draughtsman.h"
 #include "store/map_contents.h"
 #include "worlds.h"

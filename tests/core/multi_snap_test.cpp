@@ -35,7 +35,7 @@ glm::dvec3 onTheWay(int step)
     return {1.0 + 6.0 * t * t, 1.7, 18.0 - 26.0 * t};
 }
 
-/// Of one frustum: its directions, its shell and its texels.
+/// The name of one frustum: its directions, its shell and its texels.
 struct FrustumName {
     glm::dvec4 sector;
     double begin_m;
@@ -85,7 +85,7 @@ TEST(MultiSnap, HoldsTexelsWhereTheyAre)
     }
 }
 
-// A host may take a key for another light. What was held of the one is of no use to the other.
+// A host may take a key for another light. The maps of the one are of no use to the other.
 TEST(MultiSnap, ForgetsALampThatBecomesAnother)
 {
     Hall hall;
@@ -106,7 +106,7 @@ TEST(MultiSnap, ForgetsALampThatBecomesAnother)
     }
 }
 
-// What another frustum serves from now on fades over, and every place that is seen is on a map all the while.
+// Places that change to another frustum fade over, and every visible place is on a map all the while.
 TEST(MultiSnap, FadesWhatItHasToChange)
 {
     Hall hall;

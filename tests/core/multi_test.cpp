@@ -260,7 +260,7 @@ TEST(Multi, SpendsTheTexelsThatAreLeft)
     EXPECT_LT(many.texel_px, 0.85 * some.texel_px);
 }
 
-// A host that says how many a pixel gets has so many, and no more where fewer do.
+// A host that sets the texels of a pixel gets that many, and no more where fewer are enough.
 TEST(Multi, SpendsNoMoreThanIsAskedFor)
 {
     Hall hall = fortyLamps();
@@ -412,7 +412,7 @@ TEST(Multi, ChangesLittleWhereLittleMoves)
     EXPECT_LT(changes, views / 20);
 }
 
-// What converges moves its lamp in each frame, and with it where directions are divided.
+// soften=converge moves its lamp in each frame, and with it the division of directions.
 TEST(Multi, HoldsWhatIsSeenFromEachPointOfALampThatConverges)
 {
     Hall hall;

@@ -132,7 +132,7 @@ TEST(HandOutIds, ThoseWithOneIdAreFarApart)
     }
 }
 
-/// Of more objects than ids a higher id is always behind, and as few share one as can be.
+/// With more objects than ids a higher id is always behind, and as few as possible share one.
 TEST(HandOutIds, NeighboursShareOneInOrder)
 {
     ObjectSet set;
@@ -349,7 +349,7 @@ TEST(IdOptions, SayWhatTheyDoNotGoWith)
               "id.bias is 1.5; it can be 0 to 1 of the radius");
 }
 
-// What says nothing is to be refused where it is said.
+// An option without effect must be refused where it is given.
 TEST(IdOptions, LeaveTheBiasToWhoComparesDepths)
 {
     for (const char* key : {"bias.constant", "bias.slope", "bias.normal", "bias.receiver-plane"}) {

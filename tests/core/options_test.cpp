@@ -184,7 +184,7 @@ TEST(OptionTable, KeysAreUniqueAndSayWhenTheyCount)
     EXPECT_EQ(findOption("no such"), nullptr);
 }
 
-/// What is read and written back is the same, and every choice can be said.
+/// A value that is read and written back is the same, and every choice has a name.
 TEST(OptionTable, ReadsWhatItWrites)
 {
     for (const OptionRow& row : optionTable()) {
@@ -226,7 +226,7 @@ TEST(OptionTable, NumbersEndWhereTheirRangesDo)
     }
 }
 
-/// Of settings that say one thing in two ways, the last word holds.
+/// Where two settings say one thing, the last one holds.
 TEST(OptionTable, EndsAndCountOfCascadesAgree)
 {
     const OptionRow& count = *findOption("cascades.count");

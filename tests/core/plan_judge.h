@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a plan is right, judged with points and rays and with the camera's matrix itself; no plane, no body and no
-// tree is used.
+// Judges a plan with points, rays and the camera's matrix itself; uses no plane, no body and no tree.
 #pragma once
 
 #include "random_scenes.h"
@@ -13,7 +12,7 @@
 
 namespace gnomon::test {
 
-/// What was there to be judged.
+/// The points and casters that were judged.
 struct Tally {
     int seen = 0;    // points that the camera sees and a light reaches
     int blocked = 0; // casters on the way from such a point to the light
@@ -25,13 +24,13 @@ struct Tally {
     [[nodiscard]] int count(OutcomeKind kind) const { return outcomes[static_cast<std::size_t>(kind)]; }
 };
 
-/// Looks at points of receivers; a point that the camera sees and the light reaches must be in the map of every view
-/// that serves it, inside the border and before the far plane, and whatever casts on it must be drawn there and be
-/// stored before it. All numbers must be finite. Fatal failures of the test that runs. Of a sun that moves in steps,
-/// give a plan of one position.
+/// Looks at points of receivers. A point that the camera sees and the light reaches must be in the map of every view
+/// that serves it, inside the border and before the far plane. Its casters must be drawn there and be stored before it.
+/// All numbers must be finite. Failures are fatal to the running test. For a sun that moves in steps, give a plan of
+/// one position.
 void judge(const RandomScene& scene, const Plan& plan, Random& random, Tally& tally);
 
-/// All that a plan says, byte for byte.
+/// All content of a plan, byte for byte.
 [[nodiscard]] std::string bytesOf(const Plan& plan);
 
 } // namespace gnomon::test

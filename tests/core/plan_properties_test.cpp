@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must hold for every plan, tried on random scenes, cameras and lights, the awkward ones included.
+// Properties of every plan, tried on random scenes, cameras and lights, awkward ones included.
 #include "plan_judge.h"
 #include "random_scenes.h"
 
@@ -112,7 +112,7 @@ std::string bytesWithoutPlaces(Plan plan)
     return test::bytesOf(plan);
 }
 
-/// What a planner that has seen other frames, and a scene that was made anew, do not change: a bit of the plan.
+/// A planner that has seen other frames, and a scene made anew, give the same bits of the plan.
 void checkSameBits(const RandomScene& scene, std::uint64_t seed, const Plan& plan)
 {
     const RandomScene again = randomScene(seed, scene.options.technique);

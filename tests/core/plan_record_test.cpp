@@ -32,7 +32,7 @@ struct Kind {
     Technique technique;
     std::function<void(ShadowOptions&)> change = [](ShadowOptions&) {
     };
-    std::uint32_t more_lights = 0; // so many lamps more, of the same options
+    std::uint32_t more_lights = 0; // this many more lamps, of the same options
     std::uint64_t first_seed = 11;
 };
 

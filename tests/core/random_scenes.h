@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random scenes, cameras and lights for what must hold for every plan; the awkward ones come often.
+// Random scenes, cameras and lights for the properties of every plan; awkward ones come often.
 #pragma once
 
 #include "worlds.h"
@@ -13,7 +13,7 @@
 
 namespace gnomon::test {
 
-/// What is awkward about a scene; one may be so in several ways.
+/// Ways in which a scene is awkward; it may have several.
 enum class Awkward : std::uint8_t {
     camera_along_light, // looks the way one of the lights shines
     camera_into_light,  // or against it

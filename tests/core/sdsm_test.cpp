@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is planned for cascades that the GPU fits, and the arithmetic of their fit.
+// Plans for cascades that the GPU fits, and the arithmetic of their fit.
 #define GNOMON_REAL double
 #include "worlds.h"
 

@@ -249,7 +249,7 @@ TEST(StepsPlan, AlternateReadsTheOtherOne)
     EXPECT_GT(by_turns, 270);
 }
 
-/// What nobody read for a frame still holds when nothing moved meanwhile.
+/// A map that was not read for a frame is still valid when nothing moved meanwhile.
 TEST(StepsPlan, AlternateKeepsWhatIsNotRead)
 {
     Village village;
@@ -351,7 +351,7 @@ TEST(KeptLayers, AreNoMoreThanTheAtlasMayHave)
     options.max_layers = 3;
     Planner planner(options);
     const Plan& plan = planner.plan(village.frame);
-    // What is kept shares texels as the maps do, so there is room for it wherever there is for maps.
+    // Kept copies share texels as the maps do, so there is room for them wherever there is for maps.
     EXPECT_EQ(plan.pages[0].layers, 3U);
     EXPECT_EQ(plan.pages[0].kept_layers, 3U);
     ASSERT_EQ(plan.views.size(), 3U);

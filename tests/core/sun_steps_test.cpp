@@ -175,9 +175,9 @@ TEST(SunStepsByAngle, OfASunThatJumpsBeginAnew)
     }
 }
 
-/// Straight on for a while, then a turn, of any angle. Of a turn across the way the share stands still for a quarter of
-/// a step and takes another one to its nearer end, which is half a step away at most: so the lag is less than a step,
-/// the moves of some frames included, where it had gone before the turn.
+/// The sun goes straight on for a while, then turns by any angle. After a turn across the way the share stands still
+/// for a quarter of a step and takes another one to its nearer end, which is half a step away at most. So the lag is
+/// less than a step, with the moves of some frames, where it had gone before the turn.
 TEST(SunStepsByAngle, OfASunThatStrollsAreNeverSeen)
 {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {

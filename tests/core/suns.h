@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Suns for the tests of steps, and what of a step is seen.
+// Suns for the tests of steps, and the visible part of a step.
 #pragma once
 
 #include "motion/sun_steps.h"
@@ -57,7 +57,7 @@ struct Weighed {
     std::uint32_t slot;
 };
 
-/// What a frame shows: which positions, how much each (without smoothing), and where their maps are.
+/// The positions that a frame shows, the share of each (without smoothing), and the places of their maps.
 inline std::array<Weighed, 2> shown(const SunCourse& course)
 {
     const SunSteps& steps = course.steps();
@@ -65,7 +65,7 @@ inline std::array<Weighed, 2> shown(const SunCourse& course)
             Weighed{steps.later_ws, steps.share, 1 - course.earlierSlot()}};
 }
 
-/// The share of what is shown that is not what was: 0 .. 1. Positions are the same if all their bits are.
+/// The share of the picture that changed: 0 .. 1. Positions are the same if all their bits are.
 inline double change(const std::array<Weighed, 2>& before, const std::array<Weighed, 2>& after)
 {
     double kept = 0.0;
@@ -76,7 +76,7 @@ inline double change(const std::array<Weighed, 2>& before, const std::array<Weig
     return 1.0 - kept;
 }
 
-/// The place on the arc between the two positions that the share says.
+/// The direction on the arc between the two positions, at the share.
 inline glm::dvec3 mean(const SunSteps& steps)
 {
     const double whole = angleBetween(steps.earlier_ws, steps.later_ws);

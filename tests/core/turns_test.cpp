@@ -138,7 +138,7 @@ TEST(Turns, AreNotForMeansOverFrames)
     }
 }
 
-// Who waits keeps the slices of the camera that it was drawn for, along that camera's axis.
+// A light that waits keeps the slices of the camera that it was drawn for, along that camera's axis.
 TEST(Turns, AreOfCascadesTooAndOfACameraThatTurns)
 {
     Avenue avenue(1);
@@ -217,7 +217,7 @@ TEST(Turns, LeavePlansThatAreRight)
     EXPECT_GT(tally.seen, 500);
 }
 
-// Who is gone is in no list of casters, also not in one that is older.
+// A removed object is in no list of casters, also not in an older one.
 TEST(Turns, ForgetWhoIsGone)
 {
     Waiting waiting;

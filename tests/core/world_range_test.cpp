@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is beyond the range of sizes and places is said of every light, and what is within it is planned.
+// Beyond the range of sizes and places every light is refused with a reason; within it all are planned.
 #include "worlds.h"
 
 #include <gnomon/planner.h>

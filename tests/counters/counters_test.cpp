@@ -26,7 +26,7 @@ struct View {
     std::vector<std::string> arguments;
 };
 
-/// What googletest prints of a failed case, instead of its bytes.
+/// The text of a failed case for googletest, instead of its bytes.
 void PrintTo(const View& view, std::ostream* out)
 {
     *out << view.scene;

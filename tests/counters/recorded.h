@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every pass of every view counted when it was recorded: recorded.json, and what has changed since.
+// The recorded counts of every pass of every view (recorded.json), and the changes since.
 #pragma once
 
 #include "bench_figures.h"

@@ -31,7 +31,7 @@ namespace gnomon::test {
                 high = std::max(high, near);
             }
             const float value = at(mask, x, y);
-            // What is no number is beyond.
+            // NaN is beyond.
             count += value >= low - kTolerance && value <= high + kTolerance ? 0 : 1;
         }
     }

@@ -30,7 +30,7 @@ Function* real(const char* name)
     return reinterpret_cast<Function*>(found);
 }
 
-/// What a call is to return without doing anything, or VK_SUCCESS.
+/// The result that a call must return without doing anything, or VK_SUCCESS.
 VkResult outcome()
 {
     const std::uint64_t call = ++calls;
@@ -68,7 +68,7 @@ VkResult counted(VkResult result, std::int64_t objects)
         live -= (handle) != VK_NULL_HANDLE ? 1 : 0;                                                                    \
         next names;                                                                                                    \
     }
-// What devices make by a structure, and destroy by a handle.
+// Objects that devices make by a structure, and destroy by a handle.
 #define GNOMON_OBJECT(type)                                                                                            \
     GNOMON_FALLIBLE(                                                                                                   \
         vkCreate##type, 1,                                                                                             \
@@ -180,7 +180,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vkGetInstanceProcAddr(VkInstance instan
     return real<decltype(vkGetInstanceProcAddr)>("vkGetInstanceProcAddr")(instance, name);
 }
 
-/// Whoever looks a function up gets ours too, where there is one.
+/// Gives our function to callers that look one up, where there is one.
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vkGetDeviceProcAddr(VkDevice device, const char* name)
 {
 #define GNOMON_OURS(function)                                                                                          \

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Between the program and Vulkan's loader: counts the calls that may fail and lets one of them, on the real driver. A
-// binary that links vulkan_faults.cpp calls what is defined there in place of the loader's functions of these names.
+// A layer between the program and Vulkan's loader: counts the calls that may fail and lets one of them fail, on the
+// real driver. A binary that links vulkan_faults.cpp calls its functions in place of the loader's of the same names.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -9,15 +9,15 @@
 
 namespace gnomon::test {
 
-/// Calls that may fail, since the program began. Those that only name objects for debuggers are not among them.
+/// Calls that may fail, since the program began, without those that only name objects for debuggers.
 [[nodiscard]] std::uint64_t fallibleVulkanCalls();
 /// Objects that were made and not destroyed yet: with their device, instances and devices too. Memory counts as one.
-/// What goes with a pool is not counted.
+/// Objects that are freed with a pool are not counted.
 [[nodiscard]] std::int64_t liveVulkanObjects();
 
-/// For as long as it lives, the n-th call that may fail, counted from its making and from 1, does nothing but return
-/// this result; with VK_ERROR_DEVICE_LOST so do all that follow, and the GPU has finished what it was given before. A
-/// call that destroys is not failed.
+/// While it lives, the n-th call that may fail, counted from its construction and from 1, only returns this result.
+/// With VK_ERROR_DEVICE_LOST all later ones do too, and the GPU has finished its earlier work. Calls that destroy do
+/// not fail.
 class FailingCall {
 public:
     FailingCall(std::uint64_t nth, VkResult result);
@@ -26,7 +26,7 @@ public:
     FailingCall& operator=(const FailingCall&) = delete;
 };
 
-/// For as long as it lives no fence is ever signalled, as far as anybody is told.
+/// While it lives, all fences seem unsignalled.
 class DeafFences {
 public:
     DeafFences();

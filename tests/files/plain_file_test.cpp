@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What may be opened for reading, and what is refused without waiting for it.
+// Files that may be opened for reading, and others that are refused without waiting for them.
 #include "files/files.h"
 #include "folder.h"
 

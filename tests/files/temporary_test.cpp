@@ -108,7 +108,7 @@ TEST(Temporary, ALongNameStillHasOne)
     EXPECT_EQ(folder.names().size(), 1U);
 }
 
-/// Each byte sequence is whole, whoever wrote last, and nothing else is left.
+/// The file is whole, by whichever writer was last, and nothing else is left.
 TEST(Temporary, ManyWriteOneFileAtATime)
 {
     constexpr int kWriters = 8;

@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const truth::Kind kind = said.kind == 0 ? truth::Kind::hard : truth::Kind::area;
     const auto header = truth::parseHeader(bytes, bytes.size(), {said.key, {said.width, said.height}, kind});
     const auto traced = header ? truth::decodePayload(*header, payload) : std::nullopt;
-    // What was believed can be written again.
+    // An accepted entry can be written again.
     if (traced && !truth::encodeEntry(said.key, *traced)) {
         std::abort();
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What settings refer to in the drawing part of the program, which the fuzzers leave out: it takes minutes to compile,
-// and no preset or path gets that far.
+// Functions that settings refer to in the drawing part of the program. The fuzzers leave that part out: it takes
+// minutes to compile, and no preset or path gets that far.
 #include "app/shot.h"
 #include "debug_views.h"
 #include "shot_light.h"

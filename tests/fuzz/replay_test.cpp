@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-// What tests/fuzz/CMakeLists.txt lists; NAME_fuzzer.cpp defines fuzz_NAME.
+// The fuzzers that tests/fuzz/CMakeLists.txt lists; NAME_fuzzer.cpp defines fuzz_NAME.
 #define X(name) extern "C" int fuzz_##name(const std::uint8_t* data, std::size_t size);
 GNOMON_FUZZ_TARGETS
 #undef X

@@ -110,7 +110,7 @@ void expectRefused(const fs::path& file, const std::vector<Problem>& problems)
     EXPECT_NE(message.find(file.string()), std::string::npos) << message;
     const std::string place = placeIn(message);
     const bool consistent = std::any_of(problems.begin(), problems.end(), [&](const Problem& problem) {
-        // What is wrong with the container has no pointer; an empty file has no place at all.
+        // A fault of the container has no pointer; an empty file has no place at all.
         return problem.pointer ? related(*problem.pointer, place)
                                : place.starts_with("byte ") || message.find("the file is empty") != std::string::npos;
     });

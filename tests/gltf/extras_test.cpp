@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What nodes and lights say in their `extras`.
+// The `extras` of nodes and lights.
 #include "support.h"
 
 #include <algorithm>

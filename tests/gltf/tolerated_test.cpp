@@ -145,7 +145,7 @@ const Fault kFaults[] = {
      [](FileBuilder& f) {
          f.root["nodes"][1]["colour"] = "red";
      }},
-    // What is refused, since nobody can say what was meant.
+    // These are refused, since their meaning is unknown.
     {"JointsWithoutWeightsInALaterSet", [](FileBuilder& f) { attributesOf(f)["JOINTS_1"] = 1; },
      "JOINTS_1 and WEIGHTS_1 must come together"},
     {"WeightsWithoutJoints", [](FileBuilder& f) { attributesOf(f).erase("JOINTS_0"); },

@@ -38,7 +38,7 @@ struct Case {
     int shift_y = 0;
 };
 
-/// What googletest prints of a failed case, instead of its bytes.
+/// The text of a failed case for googletest, instead of its bytes.
 void PrintTo(const Case& entry, std::ostream* out)
 {
     *out << entry.scene << " against " << entry.image;

@@ -90,8 +90,8 @@ TEST(AmbientOcclusion, BesideAnEndlessWallIsHalf)
 
 TEST(AmbientOcclusion, OnTheFloorOfABoxIsTheOpeningsViewFactor)
 {
-    // Of an opening of 2 x 2 at a height of 1 above its middle: four corners of 1 x 1 (J. Howell, "A Catalog of
-    // Radiation Heat Transfer Configuration Factors", B-3).
+    // The light through an opening of 2 x 2 at a height of 1 above the point: four corners of 1 x 1 (J. Howell, "A
+    // Catalog of Radiation Heat Transfer Configuration Factors", B-3).
     const double corner = 2.0 / std::sqrt(2.0) * std::atan(1.0 / std::sqrt(2.0)) / (2.0 * kPi);
     const auto box = [](const glm::dvec3& d) {
         const double side = 1.0 / std::max({std::abs(d.x), std::abs(d.z), 1e-12});
@@ -172,7 +172,7 @@ constexpr std::uint32_t kHeight = 120;
 constexpr float kWallX = -2.0F;
 constexpr float kWallHeight = 0.3F;
 
-/// A floor at y = 0, black but for what is diffuse, and maybe a wall at x = kWallX; a sky of one colour.
+/// A floor at y = 0 with diffuse reflection only, and maybe a wall at x = kWallX; a sky of one colour.
 scene::Scene cornerScene(bool with_wall, float albedo)
 {
     scene::Scene scene;
@@ -283,7 +283,7 @@ TEST(AmbientOcclusion, BesideALowWallIsWhatItHides)
         const scene::Scene scene = cornerScene(true, albedo);
         const ImageF on = drawnOf(scene, optionsWith(true), lookingDown()).picture.linear;
         const ImageF off = drawnOf(scene, optionsWith(false), lookingDown()).picture.linear;
-        // Of an endless wall the sine of the angle that it takes, halved, is hidden.
+        // An endless wall hides half the sine of the angle that it fills.
         std::vector<double> errors;
         for (std::uint32_t x = 0; x < kWidth; ++x) {
             const double from_wall = floorAt(x) - kWallX;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pane of coloured glass leaves of a light, in the mask.
+// The light that a pane of coloured glass leaves in the mask.
 #include "host/frame_renderer.h"
 #include "panes_scene.h"
 #include "scene/state.h"
@@ -21,7 +21,7 @@ struct Sides {
     float under = 0.0F;
 };
 
-/// Of sun and spot light, in the last of `frames` frames. `uses`: gets what memory that took.
+/// The sides by sun and spot light, in the last of `frames` frames. `uses` gets the memory that it took.
 std::vector<Sides> sidesOf(Gpu& gpu, const scene::Scene& scene, const ShadowOptions& shadow, int frames = 1,
                            std::vector<vulkan::MemoryUse>* uses = nullptr)
 {

@@ -152,8 +152,8 @@ protected:
     Gpu gpu_{{.gpu = "software", .validate = true}};
 };
 
-// The same function of the same point of the same maps, but for the rounding of a mask of 8 bits, and of a point that
-// the mask takes from the depth buffer.
+// The same function of the same point of the same maps, except for the rounding of a mask of 8 bits, and of a point
+// that the mask takes from the depth buffer.
 TEST_F(BlendedReceiver, HasTheShadowOfAnOpaqueSurfaceInItsPlace)
 {
     std::vector<ShadowOptions> all;

@@ -145,7 +145,7 @@ struct Dark {
             ADD_FAILURE() << message;
         }
     }
-    // Of the light that is added to the picture at an intensity of 1: red, in pixels.
+    // The sum of the light that is added to the picture at an intensity of 1: red, in pixels.
     [[nodiscard]] double sum(std::uint32_t levels) const
     {
         double total = 0.0;

@@ -26,7 +26,7 @@ constexpr std::uint32_t kWidth = 160;
 constexpr std::uint32_t kHeight = 120;
 enum : std::uint32_t { kSun, kSpot, kPoint, kLights };
 
-/// What cuts the box, the leaves, the pane and the lamp: by one plane or two, level or at a slant.
+/// The planes that cut the box, the leaves, the pane and the lamp: one or two, level or at a slant.
 using Cuts = std::array<scene::ClipPlanes, 4>;
 Cuts someCuts()
 {
@@ -280,7 +280,7 @@ TEST(ClipOnGpu, HasTheShadowsOfTheTruth)
     for (std::uint32_t light = 0; light < kLights; ++light) {
         const std::size_t wrong = wrongPixels(cut.masks[light], truth_of(How::cut, light));
         EXPECT_LT(wrong, std::size_t{kWidth} * kHeight / 400) << light;
-        // What is not cut is seen to differ.
+        // The uncut scene differs visibly.
         EXPECT_GT(wrongPixels(cut.masks[light], truth_of(How::whole, light)), wrong * 8 + 100) << light;
     }
     EXPECT_EQ(gpu.messages(), std::vector<std::string>{});

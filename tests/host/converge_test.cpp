@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves leaves nothing behind in a mask that is a mean over frames, and pixels that are averaged are found again.
+// Moving objects leave nothing behind in a mask that is a mean over frames, and averaged pixels are found again.
 #include "host/frame_renderer.h"
 #include "small_scene.h"
 
@@ -28,7 +28,7 @@ RenderOptions optionsOf(Soften soften)
     return options;
 }
 
-/// So is all that is within so many pixels.
+/// Whether all pixels within `reach` have the wanted value.
 bool isAround(float wanted, const ImageF& mask, std::uint32_t x, std::uint32_t y, std::uint32_t reach)
 {
     for (std::uint32_t v = y - reach; v <= y + reach; ++v) {
@@ -132,7 +132,7 @@ TEST_F(ConvergingHost, aGroupThatALightLeavesIsGoneAtOnce)
     }
 }
 
-// What nothing that moves can shadow goes on converging while something moves elsewhere.
+// Pixels that no moving object can shadow go on converging while something moves elsewhere.
 TEST_F(ConvergingHost, theRestGoesOnConverging)
 {
     ImageF mean;

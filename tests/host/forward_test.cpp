@@ -42,7 +42,7 @@ void PrintTo(const Case& one, std::ostream* out)
     *out << one.name;
 }
 
-/// What glows does so by a texture of its own, beside none of the other textures.
+/// A scene whose glowing material has an emissive texture and no other.
 scene::Scene sceneWithAGlowingTexture()
 {
     scene::Scene scene = smallScene();

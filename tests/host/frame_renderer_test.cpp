@@ -34,7 +34,7 @@ RenderOptions optionsOf(Filter filter, MapFormat format, Partition partition)
     return options;
 }
 
-/// What a frame shows.
+/// The moment that a frame shows.
 struct Moment {
     RenderOptions options;
     double time_s = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ground under panes of coloured glass, and what arrives through them.
+// A ground under panes of coloured glass, and the light through them.
 #pragma once
 
 #include "host/frame_renderer.h"
@@ -17,7 +17,7 @@ struct Pane {
     glm::vec3 colour{0.25F, 0.5F, 1.0F};
 };
 inline constexpr float kPaneAlpha = 0.5F;
-/// What goes through one of that colour.
+/// The light that passes a pane of that colour.
 [[nodiscard]] glm::vec3 through(const glm::vec3& colour = Pane{}.colour);
 /// ITU-R BT.709.
 [[nodiscard]] float luminance(const glm::vec3& light);
@@ -31,7 +31,7 @@ void addLevel(scene::Scene& scene, float left_m, float right_m, float y, std::ui
 
 /// A map of 128 texels a side, and nothing automatic.
 [[nodiscard]] ShadowOptions plainWith(Filter filter, Partition partition = Partition::single);
-/// Of every filter, and of every partition.
+/// Plain options with every filter, and with every partition.
 [[nodiscard]] std::vector<ShadowOptions> plainWithAll();
 
 } // namespace gnomon::host::test

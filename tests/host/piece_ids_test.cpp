@@ -106,7 +106,7 @@ TEST(PieceIds, PutAStepInTheShadowOfItsOwnWall)
     const ImageF whole = drawn(Filter::id, IdOf::object);
     const ImageF faces = drawn(Filter::id, IdOf::face);
     EXPECT_LT(darkIn(whole), in_shadow / 4);
-    // Of 256 texels over 8 m one is four pixels at the most: the shadow is smaller by that along its edge.
+    // One of 256 texels over 8 m is four pixels at most: the shadow is smaller by that along its edge.
     std::size_t lost = 0;
     std::size_t more = 0;
     for (std::size_t i = 0; i < depths.values.size(); ++i) {

@@ -277,7 +277,7 @@ INSTANTIATE_TEST_SUITE_P(
                     EdgeCase{"cascades_snap", 128, of(Fit::uniform, Partition::cascades, Motion::snap), 3}),
     [](const auto& edge) { return edge.param.name; });
 
-// What its page says goes wrong: edges are straight from vertex to vertex, where the map has them bent.
+// The fault that its page names: edges are straight from vertex to vertex, where the map has them bent.
 TEST(EdgesOfAParaboloid, AreOffWhereTrianglesAreLarge)
 {
     RenderOptions options;

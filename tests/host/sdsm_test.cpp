@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the GPU finds of cascades in the camera's depth buffer, against the same reduction over the same buffer in
-// double precision; and that every pixel lies in its cascade's map together with its kernel.
+// The GPU's fit of cascades to the camera's depth buffer, against the same reduction over the same buffer in double
+// precision; and that every pixel lies in its cascade's map together with its kernel.
 #define GNOMON_REAL double
 #include "host/frame_renderer.h"
 #include "scene/state.h"
@@ -296,7 +296,7 @@ TEST_P(Sdsm, HoldsEveryPixelWithItsKernelInEachCascadeThatServesIt)
     }
 }
 
-/// What a view shows, without its border, lies between what its pixels need and that with `most` around it.
+/// Expects that a view without its border lies between the need of its pixels and that with `most` around it.
 void expectRoom(const View& view, const View& base, double border_texels, const Rect& seen, const glm::dvec2& most)
 {
     constexpr double kOff = 1e-4; // pixels at the ends of slices, and what places are rounded by

@@ -47,7 +47,7 @@ std::unique_ptr<SkyUnder> skyUnder(double height_deg)
     return sky;
 }
 
-/// Of level ground, by sun and sky.
+/// The illuminance of level ground, by sun and sky.
 double illuminance_lx(double height_deg)
 {
     const auto sky = skyUnder(height_deg);
@@ -100,9 +100,9 @@ TEST(Air, TableFindsItsDirections)
     }
 }
 
-// Of clear days: 10 klx at a sun of about 8 degrees and 50 at 28 are rules of thumb of daylighting; 410 to 585 lx at
-// sunset and 2 to 3.5 at -6 degrees, American Meteorological Society, "Glossary of Meteorology", civil twilight; 0.008
-// and 0.0006 lx at -12 and -18, the same, nautical and astronomical twilight, starlight apart.
+// Figures of clear days: 10 klx at a sun of about 8 degrees and 50 at 28 are rules of thumb of daylighting; 410 to 585
+// lx at sunset and 2 to 3.5 at -6 degrees, American Meteorological Society, "Glossary of Meteorology", civil twilight;
+// 0.008 and 0.0006 lx at -12 and -18, the same, nautical and astronomical twilight, starlight apart.
 TEST(Air, LightsTheGroundByTheSunsHeight)
 {
     const auto within = [](double height_deg, double expected_lx, double factor) {

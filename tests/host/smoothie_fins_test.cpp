@@ -205,8 +205,8 @@ TEST(SmoothieFins, OfMapsThatAreKeptAreThoseOfMapsDrawnAnew)
     EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
 }
 
-/// Of a card under a spot light that rises to the right, from 7.5 m below the light to 4 m: pixels of the right part of
-/// the picture that are in its shadow or penumbra.
+/// Pixels of the right part of the picture in the shadow or penumbra of a card under a spot light. The card rises to
+/// the right, from 7.5 m below the light to 4 m.
 std::size_t darkUnderCard(Gpu& gpu, Filter filter, double near_m)
 {
     scene::Scene scene;
@@ -251,7 +251,7 @@ std::size_t darkUnderCard(Gpu& gpu, Filter filter, double near_m)
     return dark;
 }
 
-/// What is before a spot light's near plane throws no shadow, and has no fins.
+/// An object before a spot light's near plane casts no shadow, and has no fins.
 TEST(SmoothieFins, EndAtTheNearPlane)
 {
     Gpu gpu({.gpu = "software", .validate = true});

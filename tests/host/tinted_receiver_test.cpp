@@ -138,7 +138,8 @@ private:
     FrameTimes times_;
 };
 
-/// What arrives of each colour of a light at points of a pane, by what the pane is without shadows and without light.
+/// The share of each colour of a light that arrives at points of a pane, from pictures of the pane without shadows and
+/// without light.
 class Probe {
 public:
     Probe(Gpu& gpu, const Wish& wish)
@@ -190,8 +191,8 @@ std::vector<ShadowOptions> someTechniques()
             plainWith(Filter::pcf, Partition::cascades), plainWith(Filter::pcf, Partition::sdsm)};
 }
 
-// The same function of the same point of the same maps, but for the rounding of a mask of 8 bits, and of a point that
-// the mask takes from the depth buffer.
+// The same function of the same point of the same maps, except for the rounding of a mask of 8 bits, and of a point
+// that the mask takes from the depth buffer.
 TEST_F(TintedReceiver, HasTheLightOfAnOpaqueSurfaceInItsPlace)
 {
     for (const Translucent translucent : {Translucent::colour, Translucent::grey}) {

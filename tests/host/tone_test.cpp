@@ -19,7 +19,7 @@ namespace {
 
 using namespace gnomon::shared::of_double;
 
-/// Of a colour, in sixths of a turn from red; saturated ones only.
+/// The hue of a saturated colour, in sixths of a turn from red.
 double hueOf(const glm::dvec3& c)
 {
     const double least = std::min({c.x, c.y, c.z});
@@ -38,7 +38,7 @@ TEST(ToneCurve, NeutralKeepsEveryHueAtEveryBrightness)
             EXPECT_NEAR(hueOf(neutralTone(colour * light)), hueOf(colour), 1e-9) << light;
         }
     }
-    // What the other one does to the orange of a fox.
+    // The other curve's shift of the orange of a fox.
     EXPECT_GT(hueOf(filmicTone(glm::dvec3(1.0, 0.45, 0.1) * 1.35)), hueOf({1.0, 0.45, 0.1}) + 0.15);
 }
 

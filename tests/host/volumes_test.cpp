@@ -314,7 +314,7 @@ TEST(Volumes, AreLightened)
     }
 }
 
-/// What joins it in a picture, another size, other techniques and back; and a host that draws no volumes.
+/// Another size, other techniques and back; and a host that draws no volumes.
 TEST(Volumes, SurviveResizingAndOtherTechniques)
 {
     Gpu gpu({.gpu = "software", .validate = true});

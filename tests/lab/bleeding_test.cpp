@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light bleeding: where two casters lie over each other, the averages that a map stores cannot tell the two apart from
-// one that lets part of the light through. What layers of depth, warps and four moments save of it.
+// one that lets part of the light through. Tests how far layers of depth, warps and four moments help.
 #include "stage.h"
 
 #include "worlds/canopies.h"

@@ -14,7 +14,7 @@ void addBox(scene::Scene& scene, const glm::vec3& low, const glm::vec3& high);
 void addSun(scene::Scene& scene, const glm::vec3& direction, float angular_diameter_rad = 0.0F);
 /// A node with a point light, or a spot light straight down of that cone, degrees across.
 void addLamp(scene::Scene& scene, const glm::vec3& place, float cone_deg = 0.0F);
-/// Names it "view".
+/// Adds a view named "view".
 void addView(scene::Scene& scene, const glm::vec3& eye, const glm::vec3& target, float fov_y_rad = 0.8F);
 
 } // namespace gnomon::lab::test

@@ -32,7 +32,7 @@ struct Tally {
     int wrong = 0;
 };
 
-/// Of the ground's points: posts stand in umbrae, so that geometry of the roofs alone decides.
+/// Tallies the ground's points. Posts stand in umbrae, so that geometry of the roofs alone decides.
 Tally tallyGround(const Subject& subject, const truth::Traced& traced)
 {
     Tally tally;

@@ -21,7 +21,7 @@ namespace {
 struct Seams {
     std::size_t pairs = 0;     // neighbours that two frustums shadow, with an edge of a shadow there
     double median_step = 0.0;  // of visibility, beyond what the neighbours' neighbours have
-    double largest_step = 0.0; // but for a twentieth
+    double largest_step = 0.0; // that a twentieth of them exceed
     std::size_t views = 0;
 };
 

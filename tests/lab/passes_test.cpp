@@ -98,7 +98,7 @@ TEST(LeastByPass, OfMapsOfDepthsAreTheirTexels)
     plan.views[0].contents.redraw = false;
     options.redraws_all = false;
     EXPECT_EQ(leastByPass(plan, 1000, options).maps->bytes, 0U);
-    // Of two lights four channels are written, and four samples to a pixel are four pixels.
+    // Two lights have four channels written, and four samples to a pixel are four pixels.
     plan.lights.resize(2);
     options.samples = 4;
     EXPECT_EQ(leastByPass(plan, 1000, options).mask->bytes, 4U * 1000U * (4U + 4U));

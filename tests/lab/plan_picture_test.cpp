@@ -259,7 +259,7 @@ TEST(PlanShapes, AMapsPointsAreThoseOfItsMatrix)
     }
 }
 
-/// What is seen is in every map, and reaches its edge.
+/// All that is seen is in every map, and reaches its edge.
 TEST(PlanShapes, WhatIsSeenIsInTheMap)
 {
     Row row;

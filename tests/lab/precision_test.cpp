@@ -2,9 +2,8 @@
 // The smallest step in height that a filter still shadows without acne, by the range of depths that its map must span.
 //
 // A plate hangs a step above a plane, both across the sun's rays at the far end of the map's range, where a float's
-// numbers lie farthest apart. What else the map must span is a small receiver close to the camera, which is as far
-// above the plane as the range says. Plate and receiver face down: maps hold them, the camera looks through their
-// backs.
+// numbers lie farthest apart. The map must also span a small receiver close to the camera, which is the range above the
+// plane. Plate and receiver face down: maps hold them, the camera looks through their backs.
 #include "stage.h"
 
 #include "scene/state.h"
@@ -182,13 +181,13 @@ TEST_P(Precision, OfHeightsIsLostByAHundredOverAHundredfoldRange)
     // of depth that is taken off whatever the range.
     EXPECT_LT(far_m / near_m, 125.0);
     if (GetParam().rounding_is_most) {
-        // What a layer knows by the mean of its depths alone (Markov's bound) keeps shadows that rounding would lose.
+        // A layer's bound by the mean of its depths alone (Markov) keeps shadows that rounding would lose.
         EXPECT_GT(far_m / near_m, GetParam().filter == Filter::lvsm ? 60.0 : 75.0);
         return;
     }
-    // A format that rounds so little loses less than a hundred, because what is left of the step is as long as a share
-    // of a texel: of a map of half as large texels it is half as long.
-    const double by_range_m = (far_m - near_m) / 99.0; // what rounding takes of the nearer step
+    // A format that rounds so little loses less than a hundred, because the rest of the step is in proportion to a
+    // texel: with texels half as large it is half as long.
+    const double by_range_m = (far_m - near_m) / 99.0; // the part of the nearer step due to rounding
     const double by_texel_m = near_m - by_range_m;
     EXPECT_GT(by_texel_m, 0.0);
     EXPECT_NEAR(Bench(GetParam(), 256).smallestStep_m(100.0F), 0.5 * by_texel_m + by_range_m, 0.1 * near_m);

@@ -54,7 +54,7 @@ private:
 
 /// The filter `hard`, with automatic bias.
 [[nodiscard]] host::RenderOptions hardOptions(std::uint32_t map_size);
-/// Any filter with its usual settings, and room around the map for what it reads.
+/// Any filter with its usual settings, and room around the map for its reads.
 [[nodiscard]] host::RenderOptions filterOptions(Filter filter, MapFormat format, std::uint32_t map_size);
 
 } // namespace gnomon::lab::test

@@ -29,7 +29,7 @@ void add(scene::Scene& scene, scene::Primitive primitive)
     scene.nodes.push_back(std::move(node));
 }
 
-/// Of radius 1 around the origin, convex.
+/// A convex ball of radius 1 around the origin.
 scene::Primitive ball(std::uint32_t rings, bool smooth)
 {
     scene::Primitive primitive;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What maps deliver, where it can be worked out by hand: a plane seen from straight above.
+// The density of maps where it can be computed by hand: a plane seen from straight above.
 #include "lab/texel_density.h"
 
 #include "lab/score/traffic.h"
@@ -319,7 +319,7 @@ TEST(LeastBytes, AreWhatIsWrittenAndReadOnce)
     EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * (drawn + 4 * pixels) + pixels * 9);
     options.redraws_all = false;
     EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * 4 * pixels + pixels * 9);
-    // Of one that is restored and drawn over in part, only that part, and what is kept if that is drawn too.
+    // A map that is restored and drawn over in part counts by that part, and its kept layer if that is drawn too.
     plan.views[0].contents.redraw = true;
     plan.views[0].contents.kept_layer = 0;
     plan.views[0].contents.dirty = {0, 0, 4, 5};
@@ -328,7 +328,8 @@ TEST(LeastBytes, AreWhatIsWrittenAndReadOnce)
     EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * (20 + drawn + 4 * pixels) + pixels * 9);
     plan.views[0].contents.kept_layer = kNoIndex;
     plan.views[0].contents.redraw = false;
-    // Who turns away from the light reads nothing, and neither does a light without a map; the mask is written.
+    // Pixels that face away from the light read nothing, and neither do those of a light without a map; the mask is
+    // written.
     lights[0].direction_ws = {0.0, 1.0, 0.0};
     EXPECT_EQ(leastBytes(seen, lights, plan, options), pixels * 9);
     lights[0].direction_ws = {0.0, -1.0, 0.0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether an SVG is well-formed, and what is in it.
+// Checks that an SVG is well-formed, and reads its content.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +44,7 @@ inline std::string whyTextIsBad(std::string_view text)
     return "";
 }
 
-/// Empty when every tag is closed in order and every & begins an entity; else what is wrong.
+/// Empty when every tag is closed in order and every & begins an entity; else the fault.
 inline std::string whyNotWellFormed(std::string_view xml)
 {
     std::vector<std::string> open;

@@ -37,7 +37,7 @@ std::uint64_t allocationsOf(const MemorySweep& sweep, const std::function<void()
                             const std::function<void(bool)>& check)
 {
     std::uint64_t count = 0;
-    // What is made once and kept is made by the first.
+    // The first run makes all that is made once and kept.
     for (int run = 0; run < 2; ++run) {
         {
             const FailingAllocation none(std::numeric_limits<std::uint64_t>::max(), sweep.whose);

@@ -97,7 +97,7 @@ TEST(WritingMemory, JsonIsWholeOrNotThere)
     sweepWriting("writing JSON", [&](const fs::path& file) { writeFile(file, app::jsonText(result)); });
 }
 
-// What killed processes left of earlier tries is in the way.
+// Remains of killed processes' earlier tries are in the way.
 TEST(WritingMemory, WhatWasLeftBehindIsRemovedAllTheSame)
 {
     const Folder folder;

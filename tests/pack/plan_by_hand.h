@@ -31,7 +31,7 @@ struct PlanByHand {
         plan.pages.resize(resolved.size());
         plan.options = std::make_shared<const std::vector<ResolvedOptions>>(std::move(resolved));
     }
-    /// A sun with so many views; without any it has no map.
+    /// Adds a sun with `views` views; without any it has no map.
     LightPlan& add(std::uint32_t options, std::uint32_t views)
     {
         Light light;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What clip planes leave of boxes, and of the bounds of objects.
+// Boxes and bounds of objects cut by clip planes.
 #include "scene/clip.h"
 #include "scene/state.h"
 

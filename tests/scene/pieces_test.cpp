@@ -23,7 +23,7 @@ void addQuad(Primitive& to, const glm::vec3& a, const glm::vec3& b, const glm::v
     }
 }
 
-/// A prism with so many sides, each with vertices of its own.
+/// A prism with `sides` sides, each with vertices of its own.
 Primitive prism(std::uint32_t sides)
 {
     Primitive made;
@@ -45,7 +45,7 @@ Primitive prism(std::uint32_t sides)
     return made;
 }
 
-/// Two squares that share an edge, the second one turned up by so many radians.
+/// Two squares that share an edge, the second one turned up by `angle` radians.
 Primitive bentSheet(double angle)
 {
     Primitive made;
@@ -83,7 +83,7 @@ TEST(Pieces, EndAtCreases)
     EXPECT_EQ(piecesOf(bentSheet(-kCreaseAngle_rad - 0.01)).count, 2U);
 }
 
-// What shares vertices is shaded as one surface, and a vertex has but one number.
+// Faces that share vertices are shaded as one surface, and a vertex has only one number.
 TEST(Pieces, AreOneWhereVerticesAreShared)
 {
     Primitive cube;
@@ -102,7 +102,7 @@ TEST(Pieces, AreOneWhereVerticesAreShared)
     expectSound(apart, piecesOf(apart));
 }
 
-// What does not touch is not one, however it lies; and numbers come again.
+// Faces that do not touch are separate pieces, wherever they lie; and numbers repeat.
 TEST(Pieces, AreCountedUpToTheMostThatThereAre)
 {
     Primitive many;

@@ -66,8 +66,8 @@ std::vector<Corners> volumeOf(const Placed& mesh, const glm::dvec4& place)
 
 constexpr double kUnsure = 1e-9;
 
-/// What the face adds to the count of a point on the ray from the eye: it counts beyond the point, and at infinity.
-/// Nothing where rounding could have it either way.
+/// The face's addition to the count of a point on the ray from the eye: it counts beyond the point, and at infinity.
+/// Nothing where rounding could decide either way.
 std::optional<int> countOf(const Corners& face, const glm::dvec3& p, const glm::dvec3& along)
 {
     const glm::dmat4 at_p(face[0], face[1], face[2], glm::dvec4(p, 1.0));

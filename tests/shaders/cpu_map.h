@@ -17,11 +17,11 @@
 namespace gnomon::test {
 /// Stored depth of a texel, by its integer coordinates.
 inline std::function<double(int x, int y)> map_texels;
-/// What the second channel holds of a texel, where a filter asks for that.
+/// The second channel of a texel, where a filter reads it.
 inline std::function<double(int x, int y)> map_seconds;
 /// Nearest and farthest depth of a block (gnomon/shared/map_blocks.h). makeBlocks() is one way to have them.
 inline std::function<glm::dvec2(int x, int y, int level)> map_block;
-/// Of map_texels from 0 to `side`, a power of two.
+/// Makes the blocks of map_texels from 0 to `side`, a power of two.
 inline void makeBlocks(int side)
 {
     std::vector<std::vector<glm::dvec2>> levels(1);
@@ -46,9 +46,9 @@ inline void makeBlocks(int side)
         return levels.at(static_cast<std::size_t>(level)).at(static_cast<std::size_t>(y * (side >> level) + x));
     };
 }
-/// What lies beside a texel, packed (gnomon/shared/smoothies.h).
+/// The smoothie beside a texel, packed (gnomon/shared/smoothies.h).
 inline std::function<int(int x, int y)> map_smoothie;
-/// What a filterable map answers; `texel` in texels of the finest level. MomentImage is one way to have it.
+/// A read of a filterable map; `texel` in texels of the finest level. MomentImage is one way to have it.
 inline std::function<glm::dvec4(glm::dvec2 texel, double level, double layer)> map_moments;
 /// GpuDepthLayers::layer of a view.
 inline std::function<glm::dvec4(int slot, int i)> depth_layers;

@@ -123,7 +123,7 @@ TEST(LayerPlacement, byHandTheOuterEndsAreThoseOfTheMap)
 
 TEST(LloydLayers, twoClustersAreSplitBetweenThem)
 {
-    // Of equal and very unequal weight, and all of it in a small part of the range.
+    // Clusters of equal and very unequal weight, also all in a small part of the range.
     for (const double share : {5000.0, 100.0}) {
         const double split = relax(clusters({{0.2, 0.03, 5000.0}, {0.8, 0.05, share}}), 2, 16)[1];
         EXPECT_NEAR(split, 0.5, 0.01);

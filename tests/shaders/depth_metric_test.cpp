@@ -57,8 +57,8 @@ TEST(CasterMidpoint, WhatIsWithinTheRoundingIsTheSameSurface)
     EXPECT_FALSE(casterBehind(0.4, 0.5, 0.001));
 }
 
-// Depth of [0, 1] that is scaled as OpenGL's of [-1, 1] has to be lies in [0.5, 1] and has half the codes. What is
-// stored here is the metric, from 0 to 1 whatever the camera's clip space is.
+// Depth of [0, 1] that is scaled as OpenGL's depth of [-1, 1] lies in [0.5, 1] and has half the codes. Maps store the
+// metric, from 0 to 1 whatever the camera's clip space.
 TEST(DepthMetric, theUpperHalfAloneRoundsTwiceAsCoarsely)
 {
     const auto rounded = [](double depth) {

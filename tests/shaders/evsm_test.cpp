@@ -158,8 +158,8 @@ TEST(Evsm, leastVarianceIsThatOfDepth)
     }
 }
 
-// What rounding takes is a share of what is stored. On a lit surface that is the receiver's own warp, and neither warp
-// may darken it; in a warp that shrinks what is before the receiver, a share of that lights nothing.
+// Rounding errs by a share of the stored value. On a lit surface that is the receiver's own warp, and neither warp may
+// darken it. In a warp that shrinks things before the receiver, a share of that lights nothing.
 TEST(Evsm, whatHidesRoundingLightsNoDeepShadow)
 {
     const Distribution lit{{0.7}, {1.0}};
@@ -200,8 +200,8 @@ TEST(Evsm, eachWarpHasItsOwnShare)
     }
 }
 
-// What a slope is allowed grows with the square of the exponent: not until it lights whatever is in shadow, however
-// large an exponent logarithms make room for. Slopes stay lit without.
+// The allowance for slopes grows with the square of the exponent. It must not light surfaces in shadow, however large
+// an exponent logarithms allow. Slopes stay lit without it.
 TEST(Evsm, noExponentLightsDeepShadowForTheSakeOfSlopes)
 {
     MapPoint point{};

@@ -11,7 +11,7 @@
 #include <functional>
 
 namespace gnomon::test {
-/// What any read of a map answers.
+/// The answer to any read of a map.
 inline std::function<glm::vec4()> float_texel;
 /// GpuDepthLayers::layer of a view.
 inline std::function<glm::vec4(int i)> float_layers;

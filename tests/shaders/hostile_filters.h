@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What filters make of maps that hold anything at all. Included once for each precision, after the shaders' files,
-// whose maps and layers of depth must be hostileTexel().
+// Filters on maps with any values at all. Included once for each precision, after the shaders' files, whose maps and
+// layers of depth must be hostileTexel().
 GN_BEGIN
 namespace hostile {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pair of casters is expected to bleed, by which layers are placed.
+// The expected bleeding of a pair of casters, by which layers are placed.
 #define GNOMON_REAL double
 #include <gnomon/shared/layer_gaps.h>
 #include <gnomon/shared/moments.h>

@@ -41,7 +41,7 @@ struct Stage {
         rows.range_m = 2.0 * top;
         return rows;
     }
-    /// What the map holds: `height` of the highest surface over a place.
+    /// Fills the map with `height` of the highest surface over a place.
     template <class Height>
     void draw(Height height) const
     {
@@ -81,7 +81,7 @@ glm::dvec2 pixelOf(int i)
     return {i % 61 + 0.5, i / 61 + 0.5};
 }
 
-/// Of a disc, the share on one side of a line at t radii from its centre.
+/// The share of a disc on one side of a line at t radii from its centre.
 double beyondLine(double t)
 {
     const double c = std::clamp(t, -1.0, 1.0);
@@ -194,7 +194,7 @@ TEST(Raymarch, APlaneIsLitAtAnyIncidence)
             return tangent * (q.x * std::cos(turn) + q.y * std::sin(turn));
         };
         stage.draw(height);
-        // Of the light's disc what is below the plane's own horizon is not seen.
+        // The part of the light's disc below the plane's own horizon is not seen.
         const double beyond = beyondLine(1.0 / (tangent * stage.tangent));
         for (int i = 0; i < 50; ++i) {
             const glm::dvec2 q(place(rng), place(rng));
@@ -241,7 +241,7 @@ TEST(Raymarch, ACreaseIsLitAndAFootIsDark)
     }
 }
 
-// Of one caster the mean depth of blockers is exact, and so is the penumbra.
+// With one caster the mean depth of blockers is exact, and so is the penumbra.
 TEST(Pcss, SeesTheShareOfADiscBesideAHalfPlane)
 {
     for (const double degrees : {0.53, 4.0}) {
@@ -252,7 +252,7 @@ TEST(Pcss, SeesTheShareOfADiscBesideAHalfPlane)
     }
 }
 
-// What it is known for: occluders that cover the light together let half of it through. Rays do not.
+// The known fault of PCSS: occluders that cover the light together let half of it through. Rays do not.
 TEST(Pcss, DoesNotFuseOccluders)
 {
     Stage stage;

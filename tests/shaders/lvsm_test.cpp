@@ -349,7 +349,7 @@ TEST_F(LvsmOfTheWorld, noSeamShowsWhereLayersOverlap)
             }
         }
     }
-    // Without an overlap there is one: below its near end a layer knows of no depth. What must fail does.
+    // Without an overlap there is one: below its near end a layer knows of no depth. This must fail.
     placeWorld({{-0.2, 0.35}, {0.35, 0.7}});
     fill({{0.33, 1.0}});
     EXPECT_LT(visibility(0.3499), 0.02);

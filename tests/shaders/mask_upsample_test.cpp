@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pixel takes from a mask of half the size, in double precision.
+// The value of a pixel from a mask of half the size, in double precision.
 #define GNOMON_REAL double
 #include <gnomon/shared/mask_upsample.h>
 #include <gnomon/shared/screen_blur.h>
@@ -23,7 +23,7 @@ TEST(MaskUpsample, TexelsLieOnThePixelsThatTheyStandFor)
 
 TEST(MaskUpsample, CornersAreWeighedAsBetweenTexels)
 {
-    // What is affine on the picture comes out as it is.
+    // A value that is affine on the picture stays the same.
     const auto value = [](double x, double y) {
         return 0.25 + 0.03 * x - 0.05 * y;
     };

@@ -158,7 +158,7 @@ TEST(MomentPenumbra, GrowsWithTheHeightOfItsOccluder)
     }
 }
 
-// Of a plane that rises all over the search, nothing is taken for an occluder.
+// No part of a plane that rises all over the search counts as an occluder.
 TEST(MomentPenumbra, APlaneWithoutOccludersIsLit)
 {
     for (const int filter : kFilters) {

@@ -12,7 +12,7 @@
 namespace gnomon::shared {
 namespace {
 
-// What the renderer's options give by default (pack/src/filter_rule.cpp).
+// The defaults of the renderer's options (pack/src/filter_rule.cpp).
 constexpr double kBias16 = 4e-5;
 constexpr double kBias32 = 3e-6;
 
@@ -75,7 +75,7 @@ double quantised16(double x)
 }
 
 // Where a root is outside of the interval, distributions inside of it shadow more. The shader takes the smaller bound
-// of both; here it is the second one as it stands, but for what double precision makes of small pivots.
+// of both; here it is the second one, except for the errors of small pivots in double precision.
 void expectEndpointBoundIsTighter(const glm::dvec4& b, double z)
 {
     const Hankel h = factorise(b, kLeastLastPivot);
@@ -250,14 +250,15 @@ TEST(Msm, defaultBiasKeepsAQuantisedPlaneLit)
             const double bias = !sixteen_bits ? kBias32 : kBias16;
             EXPECT_GT(darkestLitPlane(flags, bias, sixteen_bits, rng), 254.0 / 255.0);
             // For 32 bits this only tells that there must be some: how much is said by the bounds' own arithmetic,
-            // which asks for more than rounding (single_precision_float_test.cpp). What 16 bits need is below.
+            // which asks for more than rounding (single_precision_float_test.cpp). A later test has the need of 16
+            // bits.
             EXPECT_TRUE(sixteen_bits || darkestLitPlane(flags, 0.0, false, rng) < 0.97);
         }
     }
 }
 
-/// What 16 bits leave, after the first write and both passes of a Gaussian of 9 x 9 texels, of a plane through t with
-/// slope s a texel of which everywhere the same share lies below an occluder.
+/// The moments in 16 bits, after the first write and both passes of a Gaussian of 9 x 9 texels, of a plane through t
+/// with slope s a texel. Everywhere the same share of it lies below an occluder.
 glm::dvec4 roundedBelowAnOccluder(double t, glm::dvec2 s, double occluder, double share)
 {
     const auto stored = [](glm::dvec4 m) {
@@ -320,7 +321,7 @@ TEST(Msm, sixteenBitsLeaveNoSpecksBelowALittleOfAnOccluder)
     }
 }
 
-// What a Gaussian blur and four samples leave of a plane, or of a plane below an occluder over part of the kernel.
+// The moments of a plane after a Gaussian blur and four samples; an occluder may be over part of the kernel.
 glm::dvec4 blurredPlane(double t, glm::dvec2 slope, double sigma, int flags, double occluder = 1.0,
                         double covered = 0.0)
 {

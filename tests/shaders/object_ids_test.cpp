@@ -31,7 +31,7 @@ protected:
     ObjectIds(const ObjectIds&) = delete;
     ObjectIds& operator=(const ObjectIds&) = delete;
 
-    /// What the map holds, from the id of the object there.
+    /// Fills the map from the id of the object at each texel.
     template <class IdAt>
     static void draw(IdAt id_at)
     {
@@ -78,8 +78,8 @@ TEST_F(ObjectIds, thoseOfPiecesFollowTheFirst)
     }
 }
 
-// A cube under a light from above and the left: its left side has the texels before 10, its top those behind. What lies
-// behind them, the cube's right side, is lit as long as the cube has one id, and in its shadow where each face has one.
+// A cube under a light from above and the left: its left side has the texels before 10, its top those behind. The
+// cube's right side, behind them, is lit as long as the cube has one id, and in its shadow where each face has one.
 TEST_F(ObjectIds, aCubeIsInItsOwnShadowByItsFaces)
 {
     constexpr double kFirst = 254.0; // so that numbers come again

@@ -9,7 +9,7 @@
 namespace gnomon::shared {
 namespace {
 
-// What an image of 8 bits a channel makes of a number.
+// A number as an image of 8 bits a channel stores it.
 double stored(double channel)
 {
     return std::round(channel * 255.0) / 255.0;

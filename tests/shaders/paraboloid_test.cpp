@@ -29,7 +29,7 @@ struct Random {
     }
 };
 
-/// Of a map of 256 texels whose disc leaves 4 to the border, at tile (32, 64): eye-relative rows, the light anywhere.
+/// A map of 256 texels at tile (32, 64) whose disc leaves 4 to the border: eye-relative rows, the light anywhere.
 struct Map {
     MapRows rows{};
     glm::dvec4 places{124.0, 124.0, 160.0, 192.0};

@@ -51,7 +51,7 @@ double visibilityInDouble(const glm::vec4& stored, const DepthDraw& draw, const 
     return v;
 }
 
-// What the other half holds single precision against must itself be right: one depth before or behind the receiver.
+// The reference that single precision is compared with must itself be right: one depth before or behind the receiver.
 TEST(SinglePrecision, isHeldAgainstWhatKnowsLightFromShadow)
 {
     for (const int filter :

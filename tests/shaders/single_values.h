@@ -24,7 +24,7 @@ struct SingleOptions {
     double rounding_negative = 0.0;
 };
 
-/// What the shaders do in double precision, up to a map of 32-bit floats, and from there.
+/// The shaders' work in double precision, up to a map of 32-bit floats, and from there.
 [[nodiscard]] glm::vec4 storedInDouble(const DepthDraw& draw, const SingleOptions& options);
 [[nodiscard]] double visibilityInDouble(const glm::vec4& stored, const DepthDraw& draw, const SingleOptions& options);
 

@@ -115,7 +115,7 @@ TEST(SmoothSurface, IsNotOverATriangleWithACreasedCorner)
         const Sample at = triangles.on(1.0, 4.0 * triangles.direction(), 0.4);
         const dvec3 normal = triangles.direction();
         EXPECT_EQ(smoothPlane(normal, at.p, false), glm::dot(normal, at.p));
-        // Of a corner that has no more than a thousandth of the triangle.
+        // A corner that has no more than a thousandth of the triangle.
         const double more = smoothPlane(normal, at.p, true) - smoothPlane(normal, at.p, false);
         for (const double share : {0.001, 0.5, 1.0}) {
             EXPECT_TRUE(isFlat(smoothSurface(at.p, at.n, at.normal, at.plane + share * more), at.n));
@@ -124,7 +124,7 @@ TEST(SmoothSurface, IsNotOverATriangleWithACreasedCorner)
     }
 }
 
-// What is stored does not change when everything is twice as large.
+// The stored value does not change when everything is twice as large.
 TEST(SmoothSurface, IsStoredAsSharesOfTheDistance)
 {
     Triangles triangles;

@@ -37,7 +37,7 @@ real2 texelOf(const Seen& seen)
     return real2(seen.clip.x, seen.clip.y) / seen.clip.z;
 }
 
-/// Of an edge whose caster lies on the side of `inside`.
+/// The fin of an edge whose caster lies on the side of `inside`.
 Fin finOf(const real3& a, const real3& b, const real3& inside, double lamp_m)
 {
     const Seen from = see(a, lamp_m);
@@ -154,7 +154,7 @@ TEST(SmoothieFins, UnderALampTheyAreThoseOfChanAndDurand)
         const Fin fin = finOf({-2.0, 0.0, height}, {2.0, 0.0, height}, {0.0, 1.0, height}, kLamp);
         const double b = kLamp - height;
         const double fin_texels = kRadius / b * 80.0;
-        // What of the light's cone from the receiver lies at the caster's depth, on the map.
+        // The width on the map, at the caster's depth, of the cone from the receiver to the light.
         const double width = kRadius * (1.0 - b / kLamp) / b * 80.0;
         for (double texels = 0.0; texels < 6.0; texels += 0.5) {
             const real2 at(0.3, -texels);

@@ -43,7 +43,7 @@ TEST(Smoothies, AlphaGrowsEvenlyOverTheFin)
     EXPECT_DOUBLE_EQ(smoothieAlpha(2.0, 8.0, 16.0), 0.25);
     EXPECT_DOUBLE_EQ(smoothieAlpha(8.0, 8.0, 16.0), 1.0);
     EXPECT_DOUBLE_EQ(smoothieAlpha(30.0, 8.0, 16.0), 1.0);
-    // Of a penumbra that is wider than edges were made, nothing jumps where they end.
+    // Where a penumbra is wider than its edge was made, nothing jumps at the edge's end.
     EXPECT_DOUBLE_EQ(smoothieAlpha(8.0, 100.0, 16.0), 0.5);
     EXPECT_DOUBLE_EQ(smoothieAlpha(16.0, 100.0, 16.0), 1.0);
     // In contact there is no penumbra.

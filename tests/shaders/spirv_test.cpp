@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the library carries of compiled shaders.
+// The compiled shaders in the library.
 #include <gnomon_spirv.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts what is taken from the heap through operator new, and measures how much is held at once. A test binary that
-// links gnomon_allocation_count has its operators replaced.
+// Counts allocations through operator new, and measures how much is held at once. A test binary that links
+// gnomon_allocation_count has its operators replaced.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@ namespace gnomon::test {
 
 /// Allocations of this thread since it began.
 [[nodiscard]] std::uint64_t heapAllocations();
-/// Bytes that this thread has taken and not given back. What another thread gives back is not known here.
+/// Bytes that this thread has taken and not given back. Bytes that another thread gives back still count.
 [[nodiscard]] std::ptrdiff_t heapHeld();
 /// The most bytes that `work` held at one time in this thread, beyond what was held before.
 [[nodiscard]] std::size_t heapPeakDuring(const std::function<void()>& work);
 
-/// For as long as it lives, what this thread takes does not fail: for the inside of a library that is not ours.
+/// While it lives, no allocation of this thread fails; for calls into other libraries.
 class SpareHeap {
 public:
     SpareHeap();
@@ -25,8 +25,8 @@ public:
     SpareHeap& operator=(const SpareHeap&) = delete;
 };
 
-/// Heap of this thread, or of all threads, that runs out at one moment: the n-th allocation from its making on, counted
-/// from 1, fails (std::bad_alloc, or null where that is asked for), and none after it. One at a time.
+/// Lets one allocation of this thread, or of all threads, fail: the n-th after its construction, counted from 1
+/// (std::bad_alloc, or null from nothrow new). There may be one at a time.
 class FailingAllocation {
 public:
     enum class Of : std::uint8_t { this_thread, all_threads };
@@ -34,9 +34,9 @@ public:
     ~FailingAllocation();
     FailingAllocation(const FailingAllocation&) = delete;
     FailingAllocation& operator=(const FailingAllocation&) = delete;
-    /// Did it come to that?
+    /// Did an allocation fail?
     [[nodiscard]] static bool failed();
-    /// Allocations since its making, up to the one that failed.
+    /// Allocations since its construction, up to the one that failed.
     [[nodiscard]] std::uint64_t asked() const;
 
 private:

@@ -32,7 +32,7 @@ double processorSeconds()
 }
 
 class CaseCosts : public testing::EmptyTestEventListener {
-    // What a suite prepares takes its first case's time, and all of its cases draw if that does.
+    // A suite's preparation counts to its first case, and if it draws, all of its cases do.
     void OnTestSuiteStart(const testing::TestSuite& /*suite*/) override
     {
         begin();

@@ -3,7 +3,7 @@
 
 namespace gnomon::test {
 
-/// The case that runs counts as drawn: what it started may hand work to a driver where this process does not see it.
+/// Marks the running case as one that draws: a process that it started may give work to a driver unseen.
 void noteDrawing();
 
 } // namespace gnomon::test

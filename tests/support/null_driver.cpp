@@ -85,7 +85,7 @@ VkImageView NullDriver::makeView()
 void NullDriver::remakeView(VkImageView view)
 {
     NullObject& object = *objectOf(view);
-    // What was written to a set is the view as it was; what it is a view of is gone.
+    // Sets keep the old view; its image is gone.
     impl_->destroy(object.parts.front());
     for (auto& other : impl_->objects) {
         std::replace(other.front().parts.begin(), other.front().parts.end(), &object, object.parts.front());

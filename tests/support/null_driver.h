@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Vulkan driver that does nothing but keep count: recording logic can be tested in milliseconds, without a GPU, and
-// made to run out of memory at will. It knows the functions that this library calls and no others. It also knows which
-// objects the commands of a frame in flight use, and counts what is freed or changed too early.
+// A Vulkan driver that only counts: it tests recording in milliseconds, without a GPU, and can run out of memory at
+// will. It has only the functions that this library calls. It also knows which objects the commands of a frame in
+// flight use, and counts objects that are freed or changed too early.
 #pragma once
 
 #include <gnomon/vulkan/device_view.h>
@@ -26,11 +26,11 @@ struct NullCounts {
     std::uint64_t instances = 0;          // of the indirect draws
     std::uint64_t indices = 0;            // of the indirect draws, over all instances
     /// Mistakes. Objects, their memory included, that were destroyed while commands of a slot that has not come round
-    /// again use them; descriptor sets written while they are in such use; and commands that name what is destroyed.
+    /// again use them; descriptor sets written while they are in such use; and commands that name destroyed objects.
     std::uint64_t freed_in_use = 0;
     std::uint64_t written_in_use = 0;
     std::uint64_t used_after_free = 0;
-    std::uint64_t lacking = 0; // things made or recorded that take what the device lacks (null_lacks.cpp)
+    std::uint64_t lacking = 0; // things made or recorded that need a part that the device lacks (null_lacks.cpp)
 };
 
 struct NullEvent {
@@ -65,9 +65,9 @@ struct NullLimits {
     /// Allocations beyond these many bytes fail with VK_ERROR_OUT_OF_DEVICE_MEMORY.
     std::uint64_t memory_bytes = std::uint64_t{1} << 40;
     std::uint32_t timestamp_bits = 64;
-    std::span<const std::uint64_t> query_results; // what reading queries back begins with; zeros follow
+    std::span<const std::uint64_t> query_results; // the first results of reading queries back; zeros follow
     VkPhysicalDeviceFeatures lacks{};             // features that it has not, of those that are true here
-    bool lacks_output_layer = false;              // likewise shaderOutputLayer
+    bool lacks_output_layer = false;              // lacks shaderOutputLayer
     VkFormat lacks_format = VK_FORMAT_UNDEFINED;  // can be used for nothing
     std::uint32_t group_threads = 1024;           // maxComputeWorkGroupInvocations
     std::uint32_t storage_buffers = 4;            // maxPerStageDescriptorStorageBuffers; 4 are promised
@@ -86,18 +86,18 @@ public:
     [[nodiscard]] vulkan::DeviceView view();
     [[nodiscard]] VkCommandBuffer commands(); // the only one
     [[nodiscard]] VkBuffer makeBuffer();      // some handle to bind; not counted
-    [[nodiscard]] VkImageView makeView();     // likewise
-    /// Destroys a view of makeView() and makes another one that has the same handle, as a driver is free to.
+    [[nodiscard]] VkImageView makeView();     // some handle; not counted
+    /// Destroys a view of makeView() and makes another one that has the same handle, as a driver may.
     void remakeView(VkImageView view);
 
-    /// The frame that was recorded with this slot has finished; what is recorded from here on is a new frame of it,
-    /// which is pending until the next call with the same slot. Slots below 32. At first, slot 0.
+    /// Ends the frame that was recorded with this slot, and begins a new one, which is pending until the next call with
+    /// the same slot. Slots are below 32. The first is slot 0.
     void beginSlot(std::uint32_t slot);
     /// All frames have finished, the current one too.
     void finishAll();
 
     [[nodiscard]] const NullCounts& counts() const;
-    /// What was recorded since the last clearEvents(), the first 65536 of it; keeping it allocates nothing.
+    /// The first 65536 events since the last clearEvents(); keeping them allocates nothing.
     [[nodiscard]] std::span<const NullEvent> events() const;
     void clearEvents();
     void setMemory(std::uint64_t bytes);
@@ -106,16 +106,16 @@ public:
     /// From now on this function is missing (nullptr: none is). The name must outlive the driver.
     void hideFunction(const char* name);
 
-    /// Calls that may fail, since it was made. Those of the debug functions, of which it has none, are not among them.
+    /// Calls that may fail, since its construction, without those of the debug functions, which it lacks.
     [[nodiscard]] std::uint64_t fallibleCalls() const;
     /// The n-th such call from now on, counted from 1, fails with this result and does nothing; with
-    /// VK_ERROR_DEVICE_LOST so do all that follow. 0: none.
+    /// VK_ERROR_DEVICE_LOST all later ones fail too. 0: none.
     void failCall(std::uint64_t nth, VkResult result);
 
     /// From now on view() says that all optional features are on, whatever the device lacks.
     void claimAll();
 
-    /// What the physical device says of itself; VK_API_VERSION_1_3 at first.
+    /// Sets the physical device's API version; VK_API_VERSION_1_3 at first.
     void setApiVersion(std::uint32_t version);
 
     struct Impl;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the null driver looks for in what is made: whether it takes something that the device lacks.
+// The null driver's checks of new objects: whether they need something that the device lacks.
 #include "null_state.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace gnomon::test {
 namespace {
 
-// Of SPIR-V's specification.
+// Numbers of SPIR-V's specification.
 constexpr std::uint32_t kHeaderWords = 5;
 enum Op : std::uint32_t { kExecutionMode = 16, kCapability = 17, kConstant = 43, kExecutionModeId = 331 };
 enum Mode : std::uint32_t { kLocalSize = 17, kLocalSizeId = 38 };

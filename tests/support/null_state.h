@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the null driver's functions work on.
+// The state of the null driver's functions.
 #pragma once
 
 #include "null_driver.h"
@@ -11,7 +11,8 @@
 
 namespace gnomon::test {
 
-/// Past operator new: what a driver takes is none of the library's, and must not fail in its stead (FailingAllocation).
+/// An allocator that bypasses operator new: the driver's memory is not the library's, and must not fail in its place
+/// (FailingAllocation).
 template <class T>
 struct DriversMemory {
     using value_type = T;
@@ -46,7 +47,8 @@ struct NullObject {
     std::uint32_t heap = 0;       // memory
     NullObject* memory = nullptr; // of a buffer or an image
     VkDeviceSize offset = 0;      // there
-    /// What is used when this is: of a view its image, of a descriptor set its pool and what was written to it.
+    /// The objects that are in use when this one is: a view's image, a descriptor set's pool and the objects written to
+    /// it.
     DriversVector<NullObject*> parts;
     std::uint32_t slots = 0; // a bit for each whose pending commands use it
     bool destroyed = false;
@@ -67,7 +69,7 @@ struct NullDriver::Impl {
     VkResult failure = VK_SUCCESS;
     DriversVector<VkDeviceSize> heap_used;
 
-    /// Counts what takes something that the device lacks.
+    /// Counts a use of something that the device lacks.
     void lackIf(bool lacking) { counts.lacking += lacking ? 1 : 0; }
     [[nodiscard]] VkFormatFeatureFlags featuresOf(VkFormat format) const;
     void checkShader(std::span<const std::uint32_t> words);
@@ -80,7 +82,7 @@ struct NullDriver::Impl {
     void use(NullObject* object);
     void destroy(NullObject* object);
     void log(const NullEvent& event);
-    /// To be asked by each function that may fail, before it does anything: VK_SUCCESS, or what it is to return.
+    /// Each function that may fail calls it first and returns its result unless that is VK_SUCCESS.
     [[nodiscard]] VkResult outcome();
 };
 

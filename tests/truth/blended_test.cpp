@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What blended surfaces let through of the light that crosses them.
+// The light that passes blended surfaces.
 #include "support.h"
 
 #include "scene_geometry.h"
@@ -34,7 +34,7 @@ scene::Scene panes(const std::vector<float>& heights)
     return scene;
 }
 
-/// What arrives left of the panes' edge, and right of it.
+/// The light left of the panes' edge, and right of it.
 struct Sides {
     double free = 0.0;
     double under = 0.0;

@@ -77,7 +77,7 @@ TEST_F(CacheTest, AFullDiskLeavesNothingBehind)
     EXPECT_TRUE(left.empty());
 }
 
-// What goes when room is needed
+// The entries that go when room is needed
 
 TEST_F(CacheTest, TheLeastRecentlyUsedGoFirst)
 {

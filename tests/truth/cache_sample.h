@@ -102,7 +102,7 @@ protected:
     const Folder folder_;
     const Cache cache_{folder_.path()};
 
-    /// Of whoever asks for a truth of that size and kind.
+    /// Expects that a load of that size and kind refuses and removes the entry.
     void expectRefusedAndRemoved(const std::string& bytes, const std::string& what, const glm::uvec2& size_px = {13, 7},
                                  Kind kind = Kind::hard)
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is in an entry: it comes back as it was, or, when anything about it is wrong, not at all.
+// The content of an entry: it comes back as it was, or, when anything about it is wrong, not at all.
 #include "cache_sample.h"
 
 #include <algorithm>

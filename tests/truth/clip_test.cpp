@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What clip planes cut away is not hit: by rays of the camera or to a light, of one triangle or of many instances.
+// Rays of the camera or to a light do not hit parts that clip planes cut away, of one triangle or of many instances.
 #include "support.h"
 
 #include "scene_geometry.h"
@@ -60,8 +60,8 @@ TEST(Clip, ABoxCutInHalfCastsHalfAShadow)
 /// By light from aside the cut shape's shadow is that of a cube of another form: the slab method in double precision.
 TEST(Clip, TheShadowIsExactUnderSunAndLamp)
 {
-    // What is left reaches from -1 to 0 in x, and from -1 to 0.5 in the cube's y. It is open there, so the light comes
-    // from where no ray enters by one opening and leaves by the other.
+    // The rest reaches from -1 to 0 in x, and from -1 to 0.5 in the cube's y. It is open there, so the light's place
+    // lets no ray enter by one opening and leave by the other.
     const scene::ClipPlanes planes{kLeftHalf, glm::vec4(0.0F, -1.0F, 0.0F, 0.5F)};
     for (const Light& light : {sun({-0.4, -1.0, 0.3}), lamp({3.0, 6.0, 1.0}, 0.0)}) {
         scene::Scene scene = cubeOverGround(planes);

@@ -56,7 +56,7 @@ TEST(Groups, RaysPassThroughThoseOfOthers)
     }
 }
 
-/// Who is in no group is seen, and casts for no light.
+/// An object in no group is seen, and casts for no light.
 TEST(Groups, WithoutOneIsSeenAndCastsNothing)
 {
     scene::Scene scene = ceilings();

@@ -160,7 +160,7 @@ TEST(Flattened, cube_is_seen_lit_and_casts_as_a_square)
             EXPECT_LE(error, 4.0); // of 10800 pixels, at the rims of both
         }
     }
-    // What must fail: a square that is not there, or a cube that is not flat.
+    // These must fail: a square that is not there, and a cube that is not flat.
     const Traced square = flattened(raised, 0.0F, true, hard());
     const Traced cube = flattened(raised, 0.2F, false, hard());
     EXPECT_NE(square.surfaces.object_ids.values, cube.surfaces.object_ids.values);
@@ -195,7 +195,7 @@ TEST(Flags, decide_what_is_seen_casts_and_receives)
     expect(middleUnder([](scene::Scene& s) { s.nodes[1].casts = false; }), 1, 1.0);
     expect(middleUnder([](scene::Scene& s) { s.nodes[0].receives = false; }), 1, 1.0);
     expect(middleUnder([](scene::Scene& s) { s.materials[0].alpha_mode = scene::AlphaMode::blend; }), 1, 0.0);
-    // What does not cast is still seen, and what is blended is not, from its front.
+    // From its front, an object that does not cast is still seen, and a blended one is not.
     const auto flip = [](scene::Scene& s) {
         std::reverse(s.meshes[1].primitives[0].indices.begin(), s.meshes[1].primitives[0].indices.end());
     };

@@ -122,7 +122,7 @@ struct Rays {
     }
 };
 
-/// What arrives along a ray, of red, green and blue.
+/// The red, green and blue light that arrives along a ray.
 glm::vec3 arrives(float tfar, const Tint& tint)
 {
     return tfar >= 0.0F ? tint.through : glm::vec3(0.0F);

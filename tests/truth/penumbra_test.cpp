@@ -111,7 +111,7 @@ TEST_P(DiscSun, penumbra_of_a_half_plane_is_the_circle_segment)
     std::printf("h %g angle %g: worst column %.2f s.e., mean error %.5f, actual / reported error %.3f, rms %.5f\n",
                 double{h}, degrees, agreement.worst_column, agreement.mean_error, agreement.error_ratio,
                 agreement.rms_error);
-    // What must fail: the diameter taken for the radius, and a radius five per cent off.
+    // These must fail: the diameter taken for the radius, and a radius five per cent off.
     EXPECT_GT(segment(angle).worst_column, 20.0);
     EXPECT_GT(segment(angle).mean_error, 0.02);
     EXPECT_GT(segment(angle / 2.0 * 1.05).worst_column, 5.0);

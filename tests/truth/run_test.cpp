@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run promises: the same bits from any number of threads, a seed that matters, progress, an end when asked.
+// The promises of a run: the same bits from any number of threads, a seed that matters, progress, an end when asked.
 #include "support.h"
 
 #include "light_samples.h"
@@ -100,7 +100,7 @@ TEST(Run, IsPatientWithSlowRows)
     }));
 }
 
-/// So many triangles that Embree tells of a building's progress more than once.
+/// Enough triangles that Embree reports a building's progress more than once.
 scene::Scene balls(std::uint32_t count)
 {
     scene::Scene scene;

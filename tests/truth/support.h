@@ -27,7 +27,7 @@ std::uint32_t addBall(scene::Scene& scene, std::uint32_t rings);
 scene::Node& place(scene::Scene& scene, std::uint32_t mesh, const glm::mat4& world_from_mesh = glm::mat4(1.0F));
 /// A level square around the origin at height y, facing up.
 Corners level(float y, float half_size_m);
-/// The same facing down: a camera above sees through it, yet it casts.
+/// A level rectangle at height y that faces down: a camera above sees through it, yet it casts.
 Corners ceiling(float y, float min_x, float max_x, float half_depth_m);
 
 /// Looks from `eye` to `target`; `up` is any vector not along that.

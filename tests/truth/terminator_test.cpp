@@ -159,7 +159,7 @@ TEST(Terminator, OfABoxWithSmoothedEdgesIsThatOfTheBox)
     EXPECT_EQ(traced.surfaces.smooth_normals.values, expected.surfaces.normals.values);
 }
 
-// What stands before a body shades the side that turns away as well.
+// An object before a body shades the side that turns away as well.
 TEST(Terminator, InShadowIsDark)
 {
     const glm::dvec3 to_light = glm::normalize(glm::dvec3(-1.0, 0.0, 0.3));

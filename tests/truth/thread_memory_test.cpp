@@ -19,9 +19,9 @@ thread_local int allocations_left = kUnlimited;
 
 } // namespace
 
-// Of the whole test program, so that the standard library's own requests can fail. All forms that one `delete` serves:
-// a sanitizer has its own of each, and minds a mixture.
-// Never inlined: where GCC 12 sees through one of them only, it believes new and free to be mixed.
+// Operators of the whole test program, so that the standard library's own requests can fail. They are all forms that
+// one `delete` serves: a sanitizer has its own of each, and refuses a mixture. Never inlined: where GCC 12 sees through
+// only one of them, it warns that new and free are mixed.
 [[gnu::noinline]] void* operator new(std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept
 {
     if (allocations_left == 0) {

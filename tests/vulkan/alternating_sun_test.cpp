@@ -38,8 +38,8 @@ TEST(AlternatingSun, showsBothPositionsFromTheSecondFrameOn)
             const SunSteps steps = turnOf(read, share);
             const auto masks = turns.maskOf(all(steps));
             for (std::size_t i = 0; i < lights; ++i) {
-                // What the frame before made has been rounded once more, and is read between pixels by as much as
-                // single precision is off.
+                // The last frame's mask is rounded once more, and is read beside pixel centres by the error of single
+                // precision.
                 EXPECT_LE(worstOff(masks[i], earlier[i], later[i], steps), kRounding + 1.0) << share;
             }
         }

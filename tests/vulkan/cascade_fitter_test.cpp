@@ -169,8 +169,8 @@ TEST(CascadeFitter, HasNoFunctionToWaitOrToReadBackWith)
     }
 }
 
-// What the GPU may have written to memory that the CPU sees is overwritten by two different values before the second
-// frame: the CPU records the same and writes the same, so it has read none of it.
+// Memory that the CPU sees and the GPU may have written is overwritten by two different values before the second frame.
+// The CPU records and writes the same, so it has read none of it.
 TEST(CascadeFitter, RecordsTheSameWhateverTheGpuFound)
 {
     constexpr std::byte kValues[]{std::byte{0x00}, std::byte{0xFF}};

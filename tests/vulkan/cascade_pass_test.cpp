@@ -251,7 +251,7 @@ public:
         drawer.beginFrame(slot, plan, geometry, transforms);
         renderer.recordMaps(driver.commands(), slot, plan, draw);
     }
-    /// Of each begun rendering.
+    /// The layers of each begun rendering.
     std::vector<std::uint32_t> layerCounts() const
     {
         std::vector<std::uint32_t> layers;

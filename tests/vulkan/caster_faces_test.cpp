@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a map holds of a box over a plane by each CasterFaces, under sun and spot, in both depth formats.
+// The depths of a box over a plane by each CasterFaces, under sun and spot, in both depth formats.
 #include "fixture.h"
 
 #include <gnomon/error.h>
@@ -40,7 +40,7 @@ protected:
         bench.mesh.batches[1].two_sided = false;
         bench.mesh.parts[1].batch = 1;
     }
-    /// Of the box and of the ground beside it.
+    /// Expects the depths of the box and of the ground beside it.
     static void expectHeights(Bench& bench, double box_m, double ground_m)
     {
         const auto of_sun = bench.readMap(0);
@@ -108,7 +108,7 @@ TEST_P(CasterFacesOnGpu, anObjectsOwnBiasMovesItAlone)
     EXPECT_THROW(bench.drawer.setBiases(wrong), Error);
 }
 
-// What is left out of all casters, the ground too, though it is open: of it the light sees the front.
+// Culled faces are left out of all casters, also of the open ground, of which the light sees the front.
 TEST_P(CasterFacesOnGpu, whatIsCulledIsLeftOutOfAllThatCasts)
 {
     constexpr double kNothing = 1e9;

@@ -160,8 +160,8 @@ Made ChangingHost::frame(Planner& planner, const FrameSetup& setup)
     return made;
 }
 
-// Of the slot's own views, which are destroyed and made again, under the handles that they had: the last frame that
-// used them has finished.
+// Inputs with the slot's own views, which are destroyed and made again under the same handles: the last frame that used
+// them has finished.
 vulkan::MaskInputs ChangingHost::inputsOf(std::uint32_t slot, const FrameSetup& setup)
 {
     const Views& views = views_[slot];

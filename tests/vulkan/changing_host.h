@@ -15,16 +15,16 @@
 
 namespace gnomon::test {
 
-/// What a frame is drawn for.
+/// The setup of a frame.
 struct FrameSetup {
     std::uint32_t lights = 1; // each third a spot, the others suns; they take the planner's options in turn
-    std::uint32_t cast = ~0U; // so many of them; those after cast no shadow
+    std::uint32_t cast = ~0U; // how many of them cast; later ones cast no shadow
     std::uint32_t options = 1;
     VkExtent2D screen{64, 40};
     vulkan::MaskShape inputs;
 };
 
-/// What one recording made that should have been there.
+/// The objects and memory that one recording made, which should have been there before.
 struct Made {
     std::uint64_t pipelines = 0;
     std::uint64_t memory = 0; // allocations of the device's
@@ -34,10 +34,10 @@ struct Made {
 };
 std::ostream& operator<<(std::ostream& out, const Made& made);
 
-/// It has two frames in flight and waits for nothing but a slot's last frame.
+/// It has two frames in flight and waits only for a slot's last frame.
 class ChangingHost {
 public:
-    /// It draws fins, whatever the options say of them.
+    /// It draws fins whatever the options.
     explicit ChangingHost(const vulkan::ShadowRendererOptions& options);
     /// With a driver that outlives it.
     ChangingHost(NullDriver& shared, const vulkan::ShadowRendererOptions& options);
@@ -46,12 +46,12 @@ public:
 
     /// Plans, prepares and records a frame. Something has moved since the last one.
     [[nodiscard]] Made frame(Planner& planner, const FrameSetup& setup);
-    /// What frame() was at when it threw.
+    /// The step at which frame() threw.
     enum class At : std::uint8_t { nothing, plan, prepare, drawer, record };
     At at = At::nothing;
-    /// A frame goes by and is not drawn, but planned, and as far as `until` prepared.
+    /// Plans a frame, prepares it as far as `until`, and does not draw it.
     void skipFrame(const FrameSetup& setup, Planner& planner, At until);
-    /// Of the frame that frame() is at, or would be at next.
+    /// The index of the frame that frame() is at, or that is next.
     [[nodiscard]] std::uint32_t frameIndex() const { return frames_; }
     /// Fails the test if anything was freed or changed that a frame in flight may use.
     void expectNoMistakes(const std::string& what) const;
@@ -66,9 +66,9 @@ public:
     vulkan::FinDrawer fins;
     std::size_t views_seen = 0;     // in all frames
     std::uint64_t prepared_now = 0; // pipelines that the last frame made before it was recorded
-    /// Of light 0, for tests that want a spot.
+    /// The type of light 0, for tests that want a spot.
     LightType first_light = LightType::directional;
-    /// Of the camera, which looks at the middle of the scene and comes a little nearer in each frame.
+    /// The place of the camera, which looks at the middle of the scene and comes a little nearer in each frame.
     glm::dvec3 eye_ws{9.0, 6.0, 11.0};
     Partition chosen = Partition::automatic; // for light 0 in the last frame, by a planner that chooses
 

@@ -86,7 +86,7 @@ TEST_P(Converging, beginsUnsoftenedAndGrowsSoft)
     }
 }
 
-// Of a filter whose frames all count as much.
+// With a filter whose frames all have equal weight.
 TEST_P(Converging, isTheMeanOfItsFrames)
 {
     const std::span sun(lights.data(), 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What fins lie beside a map of the scene of boxes, worked out edge by edge on the CPU.
+// The fins beside a map of the scene of boxes, computed edge by edge on the CPU.
 #pragma once
 
 #include "cpu_map.h"
@@ -9,7 +9,7 @@
 
 namespace gnomon::test {
 
-/// As smoothiesOf().
+/// The fins' texels as smoothiesOf() gives smoothies'.
 [[nodiscard]] std::vector<int> finsOf(const Scene& scene, const View& view, const CpuMap& map, int reach,
                                       double quantum);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What smoothies lie beside a map, worked out texel by texel on the CPU.
+// The smoothies beside a map, computed texel by texel on the CPU.
 #pragma once
 
 #include "cpu_map.h"
@@ -10,8 +10,8 @@
 
 namespace gnomon::test {
 
-/// Of the texels of a tile, row by row, packed as gnomon/shared/smoothies.h has it. `quantum`: what stored depths may
-/// be off by.
+/// The smoothies of a tile's texels, row by row, packed as in gnomon/shared/smoothies.h. `quantum` is the largest error
+/// of stored depths.
 [[nodiscard]] std::vector<int> smoothiesOf(const CpuMap& map, const Tile& tile, int reach, double quantum);
 
 } // namespace gnomon::test

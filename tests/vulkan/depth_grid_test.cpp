@@ -15,7 +15,7 @@
 namespace gnomon::test {
 namespace {
 
-/// What a view's texels show, by rays.
+/// The surfaces that a view's texels show, by rays.
 class ViewRays {
 public:
     ViewRays(const Scene& scene, const View& view)

@@ -20,7 +20,7 @@
 namespace gnomon::test {
 namespace {
 
-/// What of a frame's commands tells whether all of its maps were drawn.
+/// The counts of a frame's commands that tell whether all of its maps were drawn.
 struct Drawn {
     std::uint64_t passes = 0;
     std::uint64_t draws = 0;
@@ -52,7 +52,7 @@ public:
 
     static constexpr std::uint32_t kFrames = 4;
 
-    /// Makes all that there is on a device, and draws frames. What throws half way can be mended by frame().
+    /// Makes all objects on a device, and draws frames. After an exception half way frame() can go on.
     void run(NullDriver& driver)
     {
         driver_ = &driver;
@@ -98,13 +98,13 @@ public:
     }
     /// Where it ended, if within a frame.
     [[nodiscard]] ChangingHost::At at() const { return host_->at; }
-    /// What is drawn in the frame of this index where the one before ended there. A renderer that threw is as if it
-    /// were new, a planner as if that frame had not been; its maps may be forgotten.
+    /// The draws of the frame of this index when the last one ended at `at`. A renderer that threw acts as a new one, a
+    /// planner as if that frame had not been; its maps may be forgotten.
     [[nodiscard]] static Drawn drawnAfter(const ShadowOptions& options, std::uint32_t index, ChangingHost::At at,
                                           bool forgotten)
     {
         using At = ChangingHost::At;
-        // How far that frame had come: by what threw.
+        // How far that frame had come, by the step that threw.
         constexpr std::array kUntil{At::record, At::nothing, At::plan, At::prepare, At::plan};
         NullDriver driver;
         Walk walk(options);
@@ -157,7 +157,7 @@ void expectNothingLeft(const NullDriver& driver)
     EXPECT_EQ(counts.used_after_free, 0U);
 }
 
-/// What came out of a walk that something failed in.
+/// The result of a walk in which something failed.
 struct End {
     bool error = false;
     ErrorKind kind = ErrorKind::other;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must not matter: what was drawn before, into the same renderer; and which of both kinds of shaders blurs.
+// Facts that must not matter: earlier draws of the same renderer, and which of both kinds of shaders blurs.
 #include "moment_bench.h"
 #include "moment_numbers.h"
 #include "parity.h"
@@ -167,7 +167,7 @@ std::ostream& operator<<(std::ostream& out, const PathCase& c)
 
 class BlurPaths : public testing::TestWithParam<PathCase> {};
 
-/// Of the finest level of a map in steps of 16 bits.
+/// The largest difference in the finest level of a map, in steps of 16 bits.
 double mostStepsApart(const CpuMap& a, const CpuMap& b)
 {
     double most = 0.0;

@@ -32,7 +32,7 @@ public:
     /// Turns the ground's triangles over.
     void flipGround();
     void prepare();
-    /// From here on the camera sees the scene from there.
+    /// Moves the camera for all later frames.
     void look(const glm::dvec3& eye, const glm::dvec3& target);
     /// Records and runs this many frames, all in slot 0 and one command buffer each.
     void record(int frames, vulkan::Profiler* profiler = nullptr);

@@ -81,7 +81,7 @@ TEST(FreshRenderer, drawsWhatOneDoesThatHasSeenOtherViewsAndOptionsWithoutLayers
     expectWhatAFreshOneDraws(bare);
 }
 
-// Of one pixel after the other, one light's channel.
+// One light's channel of all pixels.
 std::vector<std::byte> channelOf(const std::vector<std::byte>& mask, std::size_t pixels, const LightPlan& light)
 {
     std::vector<std::byte> channel;

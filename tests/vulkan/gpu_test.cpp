@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the renderer does beyond filtering, on a real device: reuse of maps, clamping, alpha masks, ids, normals,
-// timing.
+// The renderer's work beyond filtering, on a real device: reuse of maps, clamping, alpha masks, ids, normals, timing.
 #include "fixture.h"
 
 #include <gtest/gtest.h>

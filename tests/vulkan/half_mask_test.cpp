@@ -81,8 +81,8 @@ std::array<Corner, 4> cornersOf(int x, int y)
     return corners;
 }
 
-/// What a pixel is in the half mask, where that can be told from the whole one: of corners that are all of its surface
-/// their mean or, if they disagree, what it is in the whole one; and that too where none is of its object.
+/// The value of a pixel in the half mask, where the whole mask decides it. If all corners are of its surface, it is
+/// their mean or, if they disagree, the whole mask's value; so it is where no corner is of its object.
 std::optional<double> expectedAt(const PostedSun& whole, int x, int y, bool& is_alone)
 {
     const std::size_t here = whole.index(x, y);
@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(Filters, HalfMask, testing::Values(Filter::hard, Filter
 
 class HalfMaskLines : public testing::TestWithParam<const char*> {};
 
-/// Of any technique the pixels that are read are what they are in the whole mask, to the last bit.
+/// With any technique the pixels that are read equal those of the whole mask, to the last bit.
 TEST_P(HalfMaskLines, KeepsThePixelsThatItReads)
 {
     PlannedScene scene(gpu(), kOdd);

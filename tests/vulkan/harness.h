@@ -28,8 +28,8 @@ struct TestBuffer {
     void* mapped = nullptr;
 };
 
-/// Memory of objects, which gives out again what came back last: so a new object gets the handle of one that was
-/// destroyed, where handles are addresses.
+/// Memory of objects that reuses the block freed last, so that a new object gets the handle of a destroyed one where
+/// handles are addresses.
 class ReusedMemory {
 public:
     ReusedMemory();
@@ -95,7 +95,7 @@ private:
     vulkan::FeatureUses features_;
     VkQueue queue_ = VK_NULL_HANDLE;
     VkCommandPool pool_ = VK_NULL_HANDLE;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE; // one for all: the layers keep something of each that there ever was
+    VkCommandBuffer commands_ = VK_NULL_HANDLE; // one for all: the layers keep data of each one ever made
     VkDescriptorPool texture_pool_ = VK_NULL_HANDLE;
     VkSampler sampler_ = VK_NULL_HANDLE;
     std::vector<TestImage> images_;

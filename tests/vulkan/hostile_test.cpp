@@ -118,7 +118,7 @@ protected:
         }
         return static_cast<std::uint16_t>(sign | (size < 6e-5F && size > 0.0F ? 1 : size == 1.0F ? 0x3C00 : 0));
     }
-    // What no map decides: the background is lit, and a surface that faces away from the light is dark.
+    // Pixels that no map decides: the background is lit, and a surface that faces away from the light is dark.
     void expectUndecidedUnchanged(const std::vector<std::byte>& mask, std::uint32_t light, const std::string& what)
     {
         std::size_t away = 0;

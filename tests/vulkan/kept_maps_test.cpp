@@ -126,7 +126,7 @@ public:
         whole.prepare();
     }
 
-    /// What moves moves, and the plan says where. Views that are not redrawn are remembered as dirty.
+    /// Moves the moving boxes, and tells the plan. Views that are not redrawn are remembered as dirty.
     void move()
     {
         std::uniform_real_distribution<double> by(-1.5, 1.5);
@@ -169,7 +169,7 @@ public:
             }
         }
     }
-    /// Of both, the images.
+    /// Grows the images of both.
     void grow()
     {
         for (Bench* bench : {&kept, &whole}) {

@@ -108,7 +108,7 @@ bool reaches(const Light& lamp, double range_m, const glm::dvec3& p)
     return distance <= range_m && glm::dot(ray, lamp.direction_ws) >= distance * std::cos(lamp.outer_half_angle_rad);
 }
 
-// What a light's range does not reach is 1, and every pixel that it reaches is what it would be without a range.
+// Pixels beyond a light's range are 1, and all others equal those without a range.
 TEST(ManyLights, AreMaskedWhereTheyReach)
 {
     constexpr double kRange = 5.5;

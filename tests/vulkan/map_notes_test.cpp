@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the backend knows of its maps' texels: a plan whose frame was skipped, a renderer made anew and maps that come
-// back to sight mend themselves.
+// The backend's notes of its maps' texels: maps recover after a skipped frame, with a new renderer, and when they come
+// back to sight.
 #include "fixture.h"
 
 #include "map_notes.h"
@@ -139,7 +139,7 @@ protected:
         options.moments.placement = LayerPlacement::lloyd;
         return options;
     }
-    /// Of these lights alone there are views.
+    /// Records a frame in which only these lights have views.
     void record(std::initializer_list<std::uint32_t> lights, bool drawn_before)
     {
         bench_.plan.views.clear();

@@ -20,7 +20,7 @@ namespace {
 class Memory {
 public:
     [[nodiscard]] vulkan::MemoryHooks hooks() { return {this, allocate, release}; }
-    /// Of the mask's first layer.
+    /// The lights of the mask's first layer.
     [[nodiscard]] shared::GpuLight* lights() const
     {
         const VkPhysicalDeviceLimits limits = gpu().limits();

@@ -23,7 +23,7 @@ using vulkan::ShadowRenderer;
 
 inline constexpr VkExtent2D kPicture{64, 48};
 
-/// A host that does all right, of which one thing at a time goes wrong.
+/// A host that does all right except for one thing at a time.
 class Misuser {
 public:
     explicit Misuser(const ShadowOptions& options = {}, const vulkan::CasterDrawerOptions& casters = {})
@@ -54,7 +54,7 @@ public:
     void begin() { drawer.beginFrame(0, plan, geometry, transforms); }
     void maps(std::uint32_t slot = 0) { renderer.recordMaps(driver.commands(), slot, plan, draw); }
     void mask(std::uint32_t slot = 0) { renderer.recordMask(driver.commands(), slot, plan, inputs); }
-    /// All of it, as it should be.
+    /// Records a whole frame rightly.
     void record()
     {
         driver.beginSlot(0);
@@ -92,7 +92,7 @@ inline std::string sentenceOf(const std::function<void()>& call)
     return "no Error";
 }
 
-/// The call throws with these words, records nothing, and what is right goes on.
+/// Expects that the call throws with these words and records nothing, and that right calls go on.
 inline void expectRefused(Misuser& host, const char* words, const std::function<void()>& call)
 {
     host.driver.clearEvents();

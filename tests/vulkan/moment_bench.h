@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Filterable maps of the scene of boxes, read back, and what the CPU makes of the same depths.
+// Filterable maps of the scene of boxes, read back, and the CPU's values for the same depths.
 #pragma once
 
 #include "cpu_map.h"
@@ -19,11 +19,11 @@ struct DrawnMaps {
 };
 /// Draws this plan's maps once, with validation.
 [[nodiscard]] DrawnMaps drawMaps(const Scene& scene, const Plan& plan, const ShadowOptions& filter);
-/// What lies under each texel of a layer: a hard shadow's map.
+/// The depths under each texel of a layer: a hard shadow's map.
 [[nodiscard]] CpuMap drawDepths(const Scene& scene, const Plan& plan);
 
 [[nodiscard]] ShadowOptions momentFilter(Filter filter, MapFormat format);
-/// What the filter stores for depths in the linear metric, averaged; by image layer of the map.
+/// The filter's stored value for depths in the linear metric, averaged; by image layer of the map.
 [[nodiscard]] glm::dvec4 encodeSamples(const ShadowOptions& filter, const View& view,
                                        const std::vector<pack::DepthLayer>& layers, std::uint32_t image_layer,
                                        std::span<const double> depths);
@@ -31,7 +31,7 @@ struct DrawnMaps {
 [[nodiscard]] glm::dvec4 averageStored(const ShadowOptions& filter,
                                        std::span<const std::pair<glm::dvec4, double>> weighted);
 
-/// How far a stored value may be from the exact one.
+/// The largest error of a stored value.
 [[nodiscard]] double storageError(MapFormat format);
 [[nodiscard]] int channelsOf(MapFormat format);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What filterable maps hold before any blur: each texel is the average of what its samples' depths are encoded as.
+// Filterable maps before any blur: each texel is the average of its samples' encoded depths.
 #include "moment_bench.h"
 
 #include <gtest/gtest.h>

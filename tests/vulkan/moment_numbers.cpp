@@ -13,7 +13,7 @@ bool isFilterable(Filter filter)
 MomentNumbers momentNumbers(const ShadowOptions& filter)
 {
     if (!isFilterable(filter.technique.filter)) {
-        MomentNumbers none{}; // but for what all filters have
+        MomentNumbers none{}; // except for numbers that all filters have
         none.lighten = filter.lighten;
         none.lighten_cut = filter.lighten_as == LightenAs::remap ? filter.lighten : 0.0F;
         none.flags = pack::readingRuleOf(resolvedOrThrow(filter)).flags;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the library makes of a filterable map's options, as plain numbers: the library counts in single precision and
-// the reference in double, and one file cannot include the shaders' headers for both.
+// The numbers that the library derives from a filterable map's options, as plain numbers: the library counts in single
+// precision and the reference in double, and one file cannot include the shaders' headers for both.
 #pragma once
 
 #include <gnomon/plan.h>

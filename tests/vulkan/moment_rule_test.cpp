@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What options of a filterable map become for the shaders where they are left out.
+// The shaders' values of a filterable map's options that are left out.
 #include "moment_numbers.h"
 
 #include <gtest/gtest.h>

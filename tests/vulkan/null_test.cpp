@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is recorded, checked on a driver that only keeps count.
+// Recorded commands, checked on a driver that only counts.
 #include "allocation_count.h"
 #include "null_driver.h"
 #include "scene.h"
@@ -104,7 +104,7 @@ TEST(NullRecording, passesComeInOrder)
     EXPECT_EQ(driver.counts().instances, 2 * (1 + host.scene.boxes.size()));
     EXPECT_EQ(driver.counts().indices, 2 * (6 + 36 * host.scene.boxes.size()));
     EXPECT_EQ(host.drawer.triangles(), driver.counts().indices / 3);
-    // Two layers to attachment and back, the mask likewise; what stands in for ids of objects.
+    // Two layers and the mask go to attachment and back; one more for the stand-in of object ids.
     EXPECT_EQ(host.count(Kind::barrier), 7U);
     EXPECT_EQ(host.count(Kind::end_rendering), passes.size());
 }
@@ -314,7 +314,7 @@ TEST(NullRecording, aFormatThatTheDeviceCannotFilterIsRefusedWithWhatItLacks)
         const char* said;
         const char* remedy;
     };
-    // Of vsm's own formats Vulkan promises none.
+    // Vulkan promises none of vsm's own formats.
     constexpr const char* kRemedy = "filter evsm with rgba16f";
     for (const Lack& lack : {Lack{VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, "write in shaders", kRemedy},
                              Lack{VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, "draw to", "another map format"},

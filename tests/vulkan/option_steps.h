@@ -28,7 +28,7 @@ struct OptionSteps {
 /// The options of a line such as "filter=pcf map-size=64": choices and whole numbers.
 [[nodiscard]] ShadowOptions optionsFrom(std::string_view line);
 
-/// What sequences of options begin with.
+/// The options that sequences begin with.
 inline constexpr std::array kBases{
     "filter=pcf motion=snap keep-still=always map-size=64",
     "filter=pcf partition=cascades motion=snap keep-still=always map-size=64",
@@ -50,11 +50,11 @@ inline constexpr std::array kBases{
     "filter=smoothies motion=snap keep-still=always map-size=64",
     "filter=smoothies partition=sdsm cascades.pass=layered map-size=64",
 };
-/// What hosts begin with that always give ids of objects.
+/// The options of hosts that always give ids of objects.
 inline constexpr std::array kBasesOfIds{
     "filter=depth-id id.of=face motion=snap keep-still=always map-size=64",
 };
-/// Of letters and digits alone.
+/// A name of letters and digits alone.
 [[nodiscard]] std::string nameOfBase(std::string_view line);
 
 } // namespace gnomon::test

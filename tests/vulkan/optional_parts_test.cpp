@@ -90,7 +90,7 @@ std::vector<Lacking> lackings()
             {"maxComputeWorkGroupInvocations of 256", small_groups, {"lvsm", "sdsm"}}};
 }
 
-/// What was said where it is left out; empty: it was drawn.
+/// The reason of a refusal; empty: it was drawn.
 std::string refusalOf(NullDriver& driver, const Drawn& one)
 {
     try {

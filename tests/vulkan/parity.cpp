@@ -260,12 +260,12 @@ Rendered renderParity(const ShadowOptions& options, ParityLights lights)
 
 namespace {
 
-// What single precision may make of a read: three interpolations in a row (x, y, level) and a sum round seven times,
-// and what the filter does first to the moments, which is as good as having read others, once or twice more. Each time
-// by half a step, 2^-24 of the value. Differences of moments lose digits, so that this can be visible.
+// The error of a read in single precision. Three interpolations in a row (x, y, level) and a sum round seven times. The
+// filter's first steps on the moments round once or twice more. Each time is half a step, 2^-24 of the value.
+// Differences of moments lose digits, so that this can be visible.
 constexpr double kRoundings = 8.0 / 16777216.0;
 
-/// What a read of a filterable map may be off by; nothing where the device reads its 16 bits exactly.
+/// The largest error of a read of a filterable map; nothing where the device reads its 16 bits exactly.
 ReadError errorOf(MapFormat format)
 {
     switch (format) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame of the scene of boxes on the GPU, with everything that the CPU's reference needs to say what its masks
-// should be.
+// One frame of the scene of boxes on the GPU, with all that the CPU's reference needs to compute its masks.
 #pragma once
 
 #include "cpu_map.h"
@@ -38,7 +37,7 @@ struct Rendered {
 
 struct ParityFigures {
     std::size_t pixels = 0;
-    std::size_t different = 0; // by more than a step of the mask, and what rounding to it may add
+    std::size_t different = 0; // by more than a step of the mask and its rounding
     double worst = 0.0;        // in steps of the mask
     std::size_t loose = 0;     // where rounding of single precision alone may be more than a step
 };

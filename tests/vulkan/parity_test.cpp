@@ -101,7 +101,7 @@ TEST(ParityOfIds, everyTestAndDepthIsThatOfTheCpu)
     expectSilence(gpu());
 }
 
-// What the rasteriser keeps of a lamp's depth, and 24 bits of it.
+// The rasteriser's z/w of a lamp's depth, and depths of 24 bits.
 TEST(ParityOfDepths, zOverWAnd24BitsAreThoseOfTheCpu)
 {
     for (const MapFormat format : {MapFormat::d32f, MapFormat::d24, MapFormat::d16}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the profiler measures on devices that have less than others.
+// The profiler's results on devices that lack some parts.
 #include "null_driver.h"
 
 #include <gnomon/vulkan/profiler.h>
@@ -70,7 +70,7 @@ TEST(Profiler, LeavesOutAllForAFamilyThatThereIsNot)
     EXPECT_FALSE(profiler.results(0)[0].milliseconds.has_value());
 }
 
-// A tick is a nanosecond. Of 36 bits, which the specification allows, those above are undefined.
+// A tick is a nanosecond. The specification allows 36 bits, above which bits are undefined.
 TEST(Profiler, TakesTheBitsThatAreValidAndAClockThatWraps)
 {
     constexpr std::uint64_t kAbove = 0xABCULL << 36U;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What this device's samplers make of formats of 16 bits; the figures are properties of the result (tools/on_gpu.sh).
+// The errors of this device's samplers with formats of 16 bits; the figures are properties of the result
+// (tools/on_gpu.sh).
 #include "fixture.h"
 #include "read_error.h"
 

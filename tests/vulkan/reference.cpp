@@ -69,7 +69,8 @@ MapRows rowsOf(const View& view)
     return rows;
 }
 
-/// Of a paraboloid, at a point: the perspective map whose axis is the ray to it, its slopes from differences.
+/// The rows of a view at a point. For a paraboloid they are those of the perspective map whose axis is the ray to the
+/// point, with slopes from differences.
 MapRows rowsAt(const View& view, const glm::dvec3& p)
 {
     MapRows rows = rowsOf(view);
@@ -296,7 +297,7 @@ public:
     }
 
 private:
-    /// What the matrix makes of the pixel is (p, 1) times the reciprocal of clip space's w.
+    /// The matrix takes the pixel to (p, 1) times the reciprocal of clip space's w.
     [[nodiscard]] double wOf(const glm::dvec3& p) const
     {
         return 1.0 / (camera_.clip_from_world * glm::dvec4(p, 1.0)).w;
@@ -309,7 +310,7 @@ private:
 
 constexpr double kElsewhere = -1.0;
 
-/// What one view alone says; kElsewhere where it does not serve the pixel.
+/// The mask of one view alone; kElsewhere where it does not serve the pixel.
 std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, const View& view,
                                const ShadowOptions& options, std::span<const pack::DepthLayer> layers)
 {
@@ -391,7 +392,7 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
     return mask;
 }
 
-/// What the first of some views says that serves the pixel; 1 where none does.
+/// The mask of the first view that serves each pixel; 1 where none does.
 std::vector<double> maskOfViews(const ReferenceScene& scene, const Light& light, std::span<const View> views,
                                 const ShadowOptions& options, std::span<const pack::DepthLayer> layers)
 {

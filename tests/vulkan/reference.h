@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mask of one light, worked out on the CPU in double precision from the plan and the texels of the map, by the same
+// The mask of one light, computed on the CPU in double precision from the plan and the texels of the map, by the same
 // files that the GPU runs. The way from frame and plan to the filter's input is written anew here, in world space.
 #pragma once
 
@@ -14,11 +14,10 @@ struct ReferenceScene {
     std::span<const Light> lights;
     const Plan& plan;
     std::span<const CpuMap> maps; // by layer of the image
-    /// By this much, and by this much of itself, each channel of what is read of a filterable map is off: what rounding
-    /// may amount to.
+    /// The rounding error of each channel read from a filterable map, absolute; relative_nudge has the relative part.
     glm::dvec4 nudge{0.0};
     glm::dvec4 relative_nudge{0.0};
-    const Scene* scene = nullptr; // of filter smoothies: what has the edges
+    const Scene* scene = nullptr; // for filter smoothies: it has the edges
 };
 
 /// Visibility per pixel of the picture for light `index` of the plan: by its first view, or of a sun between two

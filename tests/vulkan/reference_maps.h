@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What filters read, of maps on the CPU: the functions that the includer of lib/filter_types.glsl defines.
-// reference.cpp alone includes this, says which maps are meant, and defines GNOMON_REAL and GNOMON_SMOOTHIES before.
+// Filters' reads of maps on the CPU: the functions that the includer of lib/filter_types.glsl defines. Only
+// reference.cpp includes this; it sets the maps, and defines GNOMON_REAL and GNOMON_SMOOTHIES before.
 #pragma once
 
 #include "cpu_map.h"

@@ -116,7 +116,7 @@ std::vector<glm::vec3> meshPositions()
     return positions;
 }
 
-/// Of a normal in the box's own frame.
+/// The side of a box by a normal in the box's own frame.
 std::uint32_t sideOf(const glm::dvec3& n)
 {
     const glm::dvec3 a = glm::abs(n);
@@ -344,7 +344,7 @@ Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const
 
 void MapNames::name(Plan& plan)
 {
-    static ContentNumber last = 0; // no number twice, whoever gives it
+    static ContentNumber last = 0; // no number is given twice, by any MapNames
     contents_.resize(std::max(contents_.size(), plan.views.size()));
     plan.map_count = static_cast<std::uint32_t>(2 * contents_.size());
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {

@@ -61,14 +61,14 @@ struct SceneMesh {
 };
 [[nodiscard]] SceneMesh uploadMesh(Gpu& gpu, const Scene& scene);
 
-/// The same with vertices of its own for each side of the cube, which then is of six pieces (CasterGeometry::pieces, of
-/// 32 bits). `mapped_indices` and `vertex_count` are no longer of use.
+/// Gives each side of the mesh's cube its own vertices, so that it has six pieces (CasterGeometry::pieces, of 32 bits).
+/// `mapped_indices` and `vertex_count` are no longer of use.
 inline constexpr vulkan::VertexAttribute kPieceOfVertex{VK_FORMAT_R32_UINT, 4, 0};
 void partSides(Gpu& gpu, SceneMesh& mesh);
 
 [[nodiscard]] Camera makeCamera(glm::dvec3 eye, glm::dvec3 target, double aspect, bool reversed_z = true);
 
-/// What the camera sees, per pixel.
+/// The camera's picture, per pixel.
 struct Picture {
     VkExtent2D extent{};
     std::vector<float> depth;

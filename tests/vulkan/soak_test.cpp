@@ -25,7 +25,7 @@ std::uint64_t wantedFrames(std::uint64_t unless_said)
     return said != nullptr ? std::strtoull(said, nullptr, 10) : unless_said;
 }
 
-/// What this process has of memory, bytes.
+/// The memory of this process, bytes.
 std::uint64_t residentBytes()
 {
     std::uint64_t pages = 0;
@@ -33,14 +33,14 @@ std::uint64_t residentBytes()
     return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Of the C library's heap, bytes in use; 0 where a sanitizer has taken its place.
+/// Bytes in use of the C library's heap; 0 where a sanitizer has replaced it.
 std::uint64_t heapBytes()
 {
     const struct mallinfo2 info = ::mallinfo2();
     return info.uordblks + info.hblkhd;
 }
 
-/// What a sanitizer holds back of what was freed counts as resident.
+/// Freed memory that a sanitizer holds back counts as resident.
 std::uint64_t heldBack()
 {
     return heapBytes() == 0 ? 96U << 20U : 0;

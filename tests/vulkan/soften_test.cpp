@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
         SoftenCase{"StrongHalf", "soften=blur soften.size=half"}),
     [](const auto& one) { return one.param.name; });
 
-/// What reaches pixels from other surfaces: those whose own surface has one value as far as the blur reaches.
+/// The light from other surfaces, summed over pixels whose own surface has one value as far as the blur reaches.
 double bledOver(const Plane& before, const Plane& after, const Picture& picture)
 {
     constexpr int kReach = 8;

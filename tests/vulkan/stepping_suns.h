@@ -37,9 +37,9 @@ class Suns {
 public:
     explicit Suns(const Setting& setting_in, std::size_t lights = 1, const vulkan::MemoryHooks& memory = {});
 
-    /// Every light by one position alone: not a stepping sun at all.
+    /// The masks of all lights by one position alone, without stepping.
     [[nodiscard]] std::vector<Mask> maskOf(SunPosition position);
-    /// Every light between its positions.
+    /// The masks of all lights between their positions.
     [[nodiscard]] std::vector<Mask> maskOf(const std::vector<SunSteps>& steps);
     [[nodiscard]] Plan planOf(const std::vector<SunSteps>& steps) const;
 
@@ -50,14 +50,14 @@ private:
     [[nodiscard]] std::vector<Mask> draw(const Plan& plan);
 };
 
-/// How far the mask is from what both positions' masks make it, at most, in steps of 255.
+/// The largest difference of the mask from the mix of both positions' masks, in steps of 255.
 [[nodiscard]] double worstOff(const Mask& mask, const Mask& earlier, const Mask& later, const SunSteps& steps);
 [[nodiscard]] std::size_t countDifferent(const Mask& a, const Mask& b);
 [[nodiscard]] inline int steps255(const Mask& mask, std::size_t i)
 {
     return std::to_integer<int>(mask[i]);
 }
-/// Both masks are rounded, and so is what is made of them; a bit more for single precision.
+/// Both masks are rounded, and so is their mix; a bit more for single precision.
 inline constexpr double kRounding = 1.01;
 
 [[nodiscard]] SunSteps blendOf(double share, bool smooth);

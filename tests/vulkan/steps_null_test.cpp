@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is recorded for a stepping sun and for kept maps, checked on a driver that only keeps count.
+// Commands for a stepping sun and for kept maps, checked on a driver that only counts.
 #include "allocation_count.h"
 #include "null_driver.h"
 #include "scene.h"

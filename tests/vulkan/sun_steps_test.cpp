@@ -86,7 +86,7 @@ TEST(SteppingSuns, ofOneLayerAreEachTheirOwn)
     expectSilence(gpu());
 }
 
-// Two maps in one texel are those that have texels of their own, but for how depths are rounded.
+// Two maps in one texel equal maps with texels of their own, except for the rounding of depths.
 TEST(SteppingSuns, sharedTexelsShowWhatOwnTexelsShow)
 {
     for (const MapFormat format : {MapFormat::rg16, MapFormat::rgba8}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What warmUp() has made, no prepare() and no drawer's beginFrame() has to.
+// No prepare() and no drawer's beginFrame() has to make what warmUp() has made.
 #include "changing_host.h"
 #include "option_steps.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What worlds/canopies.h says of the world `canopies`.
+// The facts of worlds/canopies.h about the world `canopies`.
 #include "worlds/canopies.h"
 #include "worlds/worlds.h"
 

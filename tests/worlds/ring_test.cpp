@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What worlds/ring.h says of the world `ring`.
+// The facts of worlds/ring.h about the world `ring`.
 #include "allocation_count.h"
 #include "same_bytes.h"
 
@@ -315,7 +315,7 @@ TEST(Ring, EveryViewHasAHundredObjectsInFront)
     }
 }
 
-/// Deck, hull and all other rooms are whole. What hangs on the front goes with it.
+/// Deck, hull and all other rooms are whole. Things that hang on the front go with it.
 TEST(Ring, TheFrontOfOneRoomIsCutAway)
 {
     std::size_t walls = 0;

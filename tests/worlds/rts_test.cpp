@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the world `rts` promises.
+// The promises of the world `rts`.
 #include "allocation_count.h"
 #include "same_bytes.h"
 

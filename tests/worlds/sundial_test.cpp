@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What worlds/sundial.h says of the world `sundial`: the courses of sun and moon, and what stands below them.
+// The facts of worlds/sundial.h about the world `sundial`: the courses of sun and moon, and the things below them.
 #include "allocation_count.h"
 
 #include "scene/hash.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the built-in worlds promise.
+// The promises of the built-in worlds.
 #include "worlds/planes.h"
 #include "worlds/worlds.h"
 

@@ -45,7 +45,7 @@ std::uint32_t wrapTexel(int i, int size, scene::Wrap wrap)
     return static_cast<std::uint32_t>(i);
 }
 
-/// What `read` gives of a texel's four bytes; `otherwise`, times 255, of what cannot be read.
+/// A sample of the values that `read` makes of texels' four bytes; `otherwise`, times 255, where nothing can be read.
 template <class Value, class Read>
 Value sample(const scene::Image& image, const scene::Texture& sampler, const glm::vec2& uv, Value otherwise,
              Read&& read)
@@ -84,14 +84,14 @@ float limitOf(float cutoff)
     return cutoff - std::min(kStep, 0.5F * cutoff);
 }
 
-/// Of the sRGB transfer function; IEC 61966-2-1, 1999.
+/// The linear value of an sRGB byte; IEC 61966-2-1, 1999.
 float linearOf(std::uint8_t byte)
 {
     const float c = static_cast<float>(byte) / 255.0F;
     return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
 }
 
-/// Linear colour and alpha, [0, 1], likewise.
+/// Linear colour and alpha, [0, 1], sampled like sampleAlpha().
 glm::vec4 sampleColour(const scene::Image& image, const scene::Texture& sampler, const glm::vec2& uv)
 {
     const auto read = [](const std::uint8_t* texel) {

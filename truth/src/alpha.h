@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where an alpha-masked surface is solid, and what a blended one lets through.
+// Where an alpha-masked surface is solid, and how much light a blended one lets through.
 #pragma once
 
 #include "scene/model.h"
@@ -12,15 +12,15 @@
 
 namespace gnomon::truth {
 
-/// The alpha of one primitive with one masked or blended material. What it is made from must outlive it.
+/// The alpha of one primitive with one masked or blended material. The constructor's arguments must outlive it.
 class AlphaTest {
 public:
     AlphaTest(const scene::Scene& scene, const scene::Primitive& primitive, const scene::Material& material);
 
-    /// At the point of triangle `triangle` whose weights are 1 - u - v, u and v for its three vertices.
+    /// Is the surface solid at the point of triangle `triangle` with weights 1 - u - v, u and v for its three vertices?
     [[nodiscard]] bool isSolid(std::uint32_t triangle, float u, float v) const;
-    /// There, of a blended surface: the share of red, green and blue light that goes on behind it, [0, 1]: 1 - alpha.
-    /// Stained glass takes away what its colour does not have where its alpha covers it: 1 - alpha (1 - colour).
+    /// The share of red, green and blue light that passes a blended surface at that point, [0, 1]: 1 - alpha, or with
+    /// stained glass 1 - alpha (1 - colour).
     [[nodiscard]] glm::vec3 transmittance(std::uint32_t triangle, float u, float v) const;
 
 private:

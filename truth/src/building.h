@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the building of Embree's structures has come, and whether it is to end.
+// The progress of building Embree's structures, and its cancellation.
 #pragma once
 
 #include "truth/visibility.h"
@@ -14,17 +14,17 @@ namespace gnomon::truth {
 /// Thrown when building was cancelled.
 struct BuildingCancelled {};
 
-/// What is to be built is counted in triangles: `total` >= 1 of them, in one structure after another.
+/// Counts the triangles that are built: `total` >= 1 of them, in one structure after another.
 class Building {
 public:
     Building(const Options& options, std::uint64_t total) : options_(options), total_(total) {}
 
-    /// The next structure, of so many of the triangles. Throws BuildingCancelled when that is asked for.
+    /// Begins the next structure, of `triangles`. Throws BuildingCancelled when Options::cancel is true.
     void start(std::uint64_t triangles);
-    /// The share of the present structure that is done; false when building is to stop. For Embree, which may call from
-    /// any thread, and which no exception may cross.
+    /// Takes the share of the present structure that is done; returns false when building is to stop. Embree calls it,
+    /// from any thread, and no exception may cross Embree.
     [[nodiscard]] bool reached(double share) noexcept;
-    /// After the structure: throws what the callback threw, and BuildingCancelled when building did stop.
+    /// Ends the structure: throws the callback's exception again, and BuildingCancelled when building did stop.
     void finish();
 
 private:

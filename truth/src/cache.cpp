@@ -31,7 +31,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSuffix = ".truth";
 constexpr std::size_t kKeyDigits = 32;
-/// No store takes so long: whoever wrote the file was killed, and nobody has stored or read that entry again.
+/// No store takes this long: the process that wrote the file was killed, and nobody has stored or read that entry
+/// again.
 constexpr std::chrono::hours kTemporaryLifetime{1};
 
 bool isEntryName(std::string_view name)
@@ -40,7 +41,7 @@ bool isEntryName(std::string_view name)
            name.find_first_not_of("0123456789abcdef") == kKeyDigits;
 }
 
-/// What writeFile() calls an entry while it writes: ".ENTRY.N.tmp".
+/// Is it the name that writeFile() gives an entry while it writes: ".ENTRY.N.tmp"?
 bool isTemporaryName(std::string_view name)
 {
     constexpr std::size_t kEntryLength = kKeyDigits + kSuffix.size();
@@ -65,7 +66,7 @@ private:
     int number_;
 };
 
-/// What reading gave: `failed` is the disk's or the system's fault, and says nothing of the file.
+/// The result of reading. `failed` is the disk's or the system's fault, not the file's.
 enum class Read : std::uint8_t { whole, ended_early, failed };
 
 Read readExactly(int descriptor, char* to, std::size_t count)

@@ -179,7 +179,7 @@ std::optional<EntryHeader> parseHeader(std::string_view bytes, std::uint64_t fil
     if (!ours || !as_asked || !sides || header.payload_bytes != file_bytes - sizeof(header)) {
         return std::nullopt;
     }
-    // What is unpacked is thus at most some fifty times the file.
+    // The unpacked images are thus at most some fifty times the file.
     const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
     const std::uint64_t masks = kImages * maskBytes(pixels);
     if (header.payload_bytes < masks || header.payload_bytes > masks + kBytesPerPixel * pixels) {

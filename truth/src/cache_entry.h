@@ -2,8 +2,8 @@
 // The bytes of one entry of the cache: a header, a checksum of everything else, and seven images, packed.
 //
 // A packed image is one bit per pixel, in order from the top (bit i % 8 of byte i / 8), which says whether the pixel
-// differs from the one before it (the first: from zero bits), and then the pixels that differ. Of a truth's 44 bytes
-// per pixel, most repeat: whole triangles have one normal, whole surfaces are lit, and hard truths have no error.
+// differs from the one before it (the first: from zero bits), and then the pixels that differ. Most of a truth's 44
+// bytes per pixel repeat: whole triangles have one normal, whole surfaces are lit, and hard truths have no error.
 // Numbers lie as they do in memory; the magic number of a machine with another byte order is another.
 #pragma once
 
@@ -35,7 +35,7 @@ struct EntryHeader {
 inline constexpr std::size_t kEntryHeaderBytes = 80;
 static_assert(sizeof(EntryHeader) == kEntryHeaderBytes);
 
-/// What is asked of an entry before it is believed.
+/// The facts that an entry must have.
 struct EntryOf {
     scene::Hash128 key;
     glm::uvec2 size_px{0};

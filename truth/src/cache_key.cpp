@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a truth depends on. Structs are taken apart by structured bindings, so that a new member does not compile until
-// somebody has decided here whether it counts.
+// The inputs that a truth depends on. Structured bindings name all members of each struct, so that a new member does
+// not compile until somebody has decided here whether it counts.
 #include "cache_key.h"
 
 #include "device.h"

@@ -29,7 +29,8 @@ public:
 
 private:
     struct Ray {
-        glm::dvec3 from{0.0};      // relative to the eye: the eye itself, but of an orthographic camera beside it
+        glm::dvec3 from{0.0};      // relative to the eye: the eye itself, or a point beside it for an orthographic
+                                   // camera
         glm::dvec3 direction{0.0}; // unit
         double near_m = 0.0;
         double far_m = 0.0; // may be +infinity

@@ -8,7 +8,7 @@
 namespace gnomon::truth {
 namespace {
 
-/// What Embree's properties leave open: whether eight lanes multiply and add in one rounding.
+/// Whether eight lanes multiply and add in one rounding, which Embree's properties do not tell.
 bool fusesMultiplyAdd()
 {
 #if defined(__x86_64__) || defined(__i386__)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Embree, started.
+// The Embree device.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -19,8 +19,8 @@ using DevicePointer = std::unique_ptr<RTCDevice, DeviceDeleter>;
 /// same. Throws Error when Embree does not start.
 [[nodiscard]] DevicePointer newDevice();
 
-/// A number for Embree's version and the instructions that it uses here, which both choose the last bits of what it
-/// computes. Found once; threads may ask at the same time. Throws Error when Embree does not start.
+/// A number for Embree's version and the instructions that it uses here, which both decide the last bits of its
+/// results. Found once; threads may ask at the same time. Throws Error when Embree does not start.
 [[nodiscard]] std::uint64_t tracerIdentity();
 
 } // namespace gnomon::truth

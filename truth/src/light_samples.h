@@ -27,7 +27,7 @@ struct DiscShift {
 /// `count` >= 1 points spread over the disc; neighbours in the list lie in about the same direction.
 [[nodiscard]] std::vector<DiscPoint> makeDiscSet(std::uint32_t count);
 
-/// Of set `set` of pixel number `pixel`: random, the same for the same arguments, independent for different ones.
+/// The shift of set `set` of pixel number `pixel`: random, equal for equal arguments, independent for different ones.
 [[nodiscard]] DiscShift shiftOf(std::uint64_t seed, std::uint64_t pixel, std::uint32_t set);
 
 [[nodiscard]] DiscPoint moved(const DiscPoint& point, const DiscShift& shift);

@@ -32,7 +32,7 @@ public:
     Patience(const Patience&) = delete;
     Patience& operator=(const Patience&) = delete;
 
-    /// From any thread.
+    /// May be called from any thread.
     void goOn() { steps_.fetch_add(1, std::memory_order_relaxed); }
 
 private:

@@ -63,7 +63,7 @@ glm::dvec2 pointInPixel(std::uint64_t seed, std::uint64_t pixel, std::uint32_t s
     const std::uint64_t bits = randomBits(seed ^ kOfPixels, pixel * kSampleSets + set + 1);
     const glm::dvec2 shift(static_cast<double>(bits >> 32) * 0x1p-32,
                            static_cast<double>(bits & 0xFFFFFFFFU) * 0x1p-32);
-    std::uint32_t reversed = 0; // bits, so that each of so many rows and columns has one point
+    std::uint32_t reversed = 0; // bits, so that each row and each column of the pixel has one point
     for (std::uint32_t bit = 1; bit < kPointsOfSet; bit *= 2) {
         reversed = 2 * reversed + ((index & bit) != 0 ? 1 : 0);
     }

@@ -7,17 +7,17 @@
 
 namespace gnomon::truth {
 
-/// The surface point that was seen, as a start of shadow rays. Nothing where none are to be traced.
+/// The visible surface point as a start of shadow rays. Nothing where none are traced.
 [[nodiscard]] std::optional<Receiver> receiverOn(const SceneGeometry& geometry, const View& view,
                                                  const CameraRays::Seen& seen);
 
-/// Options by which each of a pixel's points is traced.
+/// The options for each of a pixel's points.
 [[nodiscard]] Options optionsOfPoint(const Options& options);
 
 /// Where point `index` of set `set` of pixel number `pixel` lies in the pixel, [0, 1) each.
 [[nodiscard]] glm::dvec2 pointInPixel(std::uint64_t seed, std::uint64_t pixel, std::uint32_t set, std::uint32_t index);
 
-/// Over kPixelPoints points of pixel (x, y); `camera` is that of the view, `shadow_rays` are of
+/// The result over kPixelPoints points of pixel (x, y); `camera` is that of the view, `shadow_rays` are of
 /// optionsOfPoint(), `seed` is that of the options.
 [[nodiscard]] ShadowRays::Result traceOverPixel(const SceneGeometry& geometry, const View& view,
                                                 const CameraRays& camera, const ShadowRays& shadow_rays,

@@ -6,7 +6,7 @@
 
 namespace gnomon::truth {
 
-/// The same for the same arguments, as if at random for different ones.
+/// Equal for equal arguments, as if at random for different ones.
 [[nodiscard]] constexpr std::uint64_t randomBits(std::uint64_t seed, std::uint64_t number)
 {
     constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ULL;

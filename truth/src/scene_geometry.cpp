@@ -150,7 +150,7 @@ void SceneGeometry::chooseInstances(const scene::State& state, std::uint64_t fla
     }
 }
 
-/// Of the scenes that build() commits, together.
+/// The triangles of all scenes that build() commits.
 std::uint64_t SceneGeometry::trianglesToBuild(const scene::State& state, bool all_cast) const
 {
     std::uint64_t triangles = 1; // a scene may have none
@@ -274,7 +274,7 @@ void SceneGeometry::check() const
     if (error == RTC_ERROR_OUT_OF_MEMORY) {
         throw Error(kTried, "memory ran out", "use a smaller scene", ErrorKind::out_of_memory);
     }
-    // Who cancelled says so.
+    // A cancelled build is reported by the code that cancelled it.
     if (error != RTC_ERROR_NONE && error != RTC_ERROR_CANCELLED) {
         throw Error(kTried, "Embree's error " + std::to_string(static_cast<int>(error)));
     }

@@ -35,23 +35,23 @@ using GeometryPointer = std::unique_ptr<RTCGeometry, GeometryDeleter>;
 
 inline constexpr std::uint32_t kLanes = 8; // of a packet of rays
 
-/// What blended surfaces make of the light along a ray. Of a ray that is blocked it means nothing.
+/// The light along a ray after blended surfaces. It means nothing for a blocked ray.
 struct Tint {
     static constexpr std::uint32_t kMost = 16;
 
     glm::vec3 through;   // the share of red, green and blue that is left
     std::uint32_t count; // of `crossed`
-    /// The triangles that count already: Embree may call a filter for one hit more than once. Of the last kMost of
-    /// them; behind more panes than that it is dark in any case.
+    /// The last kMost triangles that were counted, since Embree may call a filter more than once for one hit. Behind
+    /// more panes than that it is dark in any case.
     std::array<std::pair<std::uint32_t, std::uint32_t>, kMost> crossed;
 };
 
-/// What a ray carries into the filters that Embree calls at every hit.
+/// The data that a ray carries into the filters that Embree calls at every hit.
 struct RayContext {
     RTCIntersectContext base;           // first: a filter is handed a pointer to it
     bool from_camera = false;           // single-sided triangles are passed through from behind
     std::uint32_t groups = 0xFFFFFFFFU; // of a shadow ray: Light::groups
-    /// The triangle that the ray starts on, which it does not hit. Of a shadow ray.
+    /// The triangle that a shadow ray starts on, which it does not hit.
     std::uint32_t own_object = RTC_INVALID_GEOMETRY_ID;
     std::uint32_t own_triangle = RTC_INVALID_GEOMETRY_ID;
     std::array<Tint, kLanes> tints; // by the ray's id
@@ -85,14 +85,14 @@ struct Part {
     std::uint32_t groups = 1; // scene::Object::groups
     bool receives = true;
     bool instanced = false;
-    /// Flat, or so nearly that the inverse in single precision that Embree keeps of an instance would misplace it.
+    /// Flat, or so nearly that Embree's single-precision inverse of an instance would misplace it.
     bool skewed = false;
 };
 
 struct Triangle {
     std::array<glm::dvec3, 3> rel; // relative to SceneGeometry::originWs()
     glm::dvec3 front;              // unit normal of the side that faces front
-    double reach_m = 0.0;          // how large the coordinates are that Embree computes with near it
+    double reach_m = 0.0;          // size of the coordinates that Embree computes with near it
 };
 
 class SceneGeometry {
@@ -125,7 +125,7 @@ private:
     [[nodiscard]] GeometryPointer trianglesOf(const Part& part, const glm::dmat4& to_from_object);
     [[nodiscard]] GeometryPointer instanceOf(const scene::Object& object, const Part& part, Building& building);
     [[nodiscard]] ScenePointer newScene();
-    /// `triangles`: how many of those that `building` counts.
+    /// `triangles` is the scene's part of those that `building` counts.
     void commit(RTCScene scene, Building& building, std::uint64_t triangles) const;
     void check() const;
 

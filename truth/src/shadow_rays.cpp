@@ -18,7 +18,7 @@ constexpr float kLeastSink = std::numeric_limits<float>::min(); // a positive nu
 /// A ray's own end is off by rounding, and a shell drawn around the emitter must not stand in its light.
 constexpr double kEndShare = 1.0 - 0x1p-18;
 
-/// What a mask of one channel makes of coloured light: ITU-R BT.709. White is 1, exactly.
+/// The value of coloured light in a mask of one channel: ITU-R BT.709. White is 1, exactly.
 double luminance(const glm::vec3& light)
 {
     return light.y + 0.2126 * (double{light.x} - light.y) + 0.0722 * (double{light.z} - light.y);

@@ -21,7 +21,7 @@ namespace gnomon::truth {
 struct Receiver {
     glm::dvec3 rel{0.0};              // relative to SceneGeometry::originWs(), off the surface already
     glm::dvec3 normal{0.0, 1.0, 0.0}; // unit
-    /// Of the smooth surface over the point; `normal` where there is none.
+    /// The normal of the smooth surface over the point; `normal` where there is none.
     glm::dvec3 smooth_normal{0.0, 1.0, 0.0};
     glm::dvec3 lifted_rel{0.0}; // `rel`, moved to it
     bool lifts = false;         // `lifted_rel` is over the triangle
@@ -46,7 +46,7 @@ public:
 
     ShadowRays(const SceneGeometry& geometry, const Light& light, const Options& options);
 
-    /// From the triangle, or where that does not face all of the light from the smooth surface over it.
+    /// Traces from the triangle, or from the smooth surface over it where the triangle does not face all of the light.
     [[nodiscard]] Result trace(const Receiver& receiver) const;
 
 private:
@@ -56,19 +56,19 @@ private:
         double distance_m = 0.0;   // to the centre; +infinity for a directional light
         double tangent = 0.0;      // of half the angle that it fills
         double end_radius_m = 0.0; // rays end on this sphere around the centre, or before
-        /// Of a spot's near plane, where rays end too: unit, away from the light; 0 where there is none.
+        /// The normal of a spot's near plane, where rays end too: unit, away from the light; 0 where there is none.
         glm::dvec3 plane_normal{0.0};
         double above_plane_m = std::numeric_limits<double>::infinity(); // how far the point is beyond it
         bool inside = false;                                            // nothing can stand between
 
-        /// Along the ray to the centre.
+        /// The end of the ray to the centre, along it.
         [[nodiscard]] double centreEnd_m() const;
-        /// Of half the angle that it fills.
+        /// The sine of half the angle that it fills.
         [[nodiscard]] double sine() const;
     };
     struct Packet;
     static constexpr std::uint32_t kBlockedKept = 4;
-    /// Some rays that were blocked, to look along for what blocks where the centre is free.
+    /// Some blocked rays, in which the blocker is searched where the ray to the centre is free.
     struct Blocked {
         std::array<glm::vec4, kBlockedKept> rays; // direction, and where it ends in lengths of that
         std::uint32_t count = 0;
@@ -81,7 +81,7 @@ private:
     void findBlocker(const Receiver& receiver, const Seen& light, const Blocked& blocked, Result& result) const;
     struct Along {
         double blocker_m = 0.0;  // to the nearest caster; +infinity where there is none
-        double visibility = 0.0; // what arrives of light from there
+        double visibility = 0.0; // the share of light that arrives from there
     };
     /// `end` is in lengths of `direction`.
     [[nodiscard]] Along lookAlong(const Receiver& receiver, const glm::dvec3& direction, double end) const;

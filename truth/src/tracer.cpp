@@ -20,7 +20,7 @@
 namespace gnomon::truth {
 namespace {
 
-/// Up to so many triangles each object gets its own copy in the world, which rays cross in three quarters of the time
+/// Up to this many triangles each object gets its own copy in the world, which rays cross in three quarters of the time
 /// that instances take; a triangle takes some 200 bytes.
 constexpr std::uint64_t kFlatTriangles = 3'000'000;
 

@@ -24,7 +24,7 @@ public:
 
     [[nodiscard]] std::int32_t cells() const { return cells_; }
     [[nodiscard]] float cellsPerM() const { return cells_per_m_; }
-    /// Of a corner of cells in `heights`, and in whatever else is kept for every corner.
+    /// The index of a corner of cells in `heights`, and in other data that is kept by corner.
     [[nodiscard]] std::size_t index(std::int32_t ix, std::int32_t iz) const
     {
         return static_cast<std::size_t>(iz * side_ + ix);
@@ -33,12 +33,12 @@ public:
     {
         return glm::vec2(static_cast<float>(ix), static_cast<float>(iz)) / cells_per_m_ - size_m_ * 0.5F;
     }
-    /// Where metres are in cells, from 0 to just below the last.
+    /// A coordinate in metres as one in cells, from 0 to just below the last.
     [[nodiscard]] float toCells(float metres) const
     {
         return std::clamp((metres + size_m_ * 0.5F) * cells_per_m_, 0.0F, static_cast<float>(cells_) - 0.001F);
     }
-    /// Beyond the border that of the border.
+    /// The height of a corner; beyond the border that of the border.
     [[nodiscard]] float at(std::int32_t ix, std::int32_t iz) const
     {
         return heights[index(std::clamp(ix, 0, cells_), std::clamp(iz, 0, cells_))];

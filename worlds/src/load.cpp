@@ -14,7 +14,7 @@ namespace gnomon::worlds {
 
 namespace {
 
-/// What other models come in, in lower case. A glTF file may have any other name.
+/// Extensions of other models' formats, in lower case. A glTF file may have any other name.
 constexpr std::array<std::string_view, 15> kOtherFormats{".3ds",  ".abc", ".blend", ".dae",  ".fbx",
                                                          ".jpeg", ".jpg", ".obj",   ".ply",  ".png",
                                                          ".stl",  ".usd", ".usda",  ".usdc", ".usdz"};

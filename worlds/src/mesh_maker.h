@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes from simple solids: what the built-in worlds are carved from.
+// Meshes from simple solids, for the built-in worlds.
 #pragma once
 
 #include "scene_names.h"
@@ -12,7 +12,7 @@ namespace gnomon::worlds {
 
 /// Linear colour from sRGB 0xRRGGBB.
 [[nodiscard]] glm::vec4 rgb(std::uint32_t srgb);
-/// Of a pane behind which there is light by night, in a material that says so (Material::lit_by_night).
+/// The colour of a pane that is lit by night, in a material with Material::lit_by_night.
 [[nodiscard]] inline glm::vec4 litByNight(const glm::vec4& colour)
 {
     return {colour.r, colour.g, colour.b, 0.0F};
@@ -47,7 +47,7 @@ public:
     void lathe(std::initializer_list<glm::vec2> profile, int sides, bool smooth_profile = false, bool faceted = false);
     /// A beam of square section from a to b; without its ends where they are hidden.
     void beam(const glm::vec3& a, const glm::vec3& b, float thickness, bool ends = true);
-    /// A smooth pipe along `path`, `radii` as many as points; closed upon itself when `ring`.
+    /// A smooth pipe along `path`, with one of `radii` for each point; closed when `ring`.
     void tube(std::span<const glm::vec3> path, std::span<const float> radii, int sides, bool ring = false);
     /// A subdivided icosahedron, smooth, or faceted with corners pushed in and out by up to `roughness` of the radius.
     void ball(float radius, int subdivisions, float roughness = 0.0F, std::uint32_t seed = 0);

@@ -80,7 +80,7 @@ inline float smoothstep(float low, float high, float x)
     return smooth(t < 0.0F ? 0.0F : (t > 1.0F ? 1.0F : t));
 }
 
-/// Value noise in [-1, 1]. A `period` above 0 makes it repeat after so many cells.
+/// Value noise in [-1, 1]. It repeats after `period` cells where that is above 0.
 inline float noise(glm::vec2 p, std::uint32_t seed, std::int32_t period = 0)
 {
     const float fx = std::floor(p.x);

@@ -10,7 +10,7 @@
 
 namespace gnomon::worlds {
 
-/// What to fill a material with; everything else keeps a dielectric's defaults.
+/// Values of a material; all others keep a dielectric's defaults.
 struct Finish {
     glm::vec4 base_colour{1.0F};
     float roughness = 0.9F;

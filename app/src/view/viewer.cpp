@@ -72,7 +72,7 @@ bool Viewer::refuse(const std::string& why)
     return false;
 }
 
-/// A lost device is not the viewer's to mend: it goes on to whoever has the window.
+/// The viewer cannot recover a lost device, so the Error goes on to the window's owner.
 bool Viewer::refuseUnlessLost(const Error& error)
 {
     if (error.kind() == ErrorKind::device_lost) {
@@ -95,8 +95,8 @@ host::Eye Viewer::aimed() const
     return eye;
 }
 
-/// Of what stands beside a picture of these settings, if anything does. Throws UsageError where the technique there
-/// cannot be had with them.
+/// The settings of the picture beside one of these settings, if there is one. Throws UsageError where the technique
+/// beside cannot be had with them.
 std::optional<Settings> Viewer::besideOf(const Settings& settings) const
 {
     if (beside_ == Beside::nothing) {
@@ -115,7 +115,7 @@ std::optional<Settings> Viewer::besideOf(const Settings& settings) const
     return std::move(other.settings);
 }
 
-/// What people should know before they look, as `render` says it.
+/// Shows the notices of the shot, which `render` prints.
 void Viewer::noteNotices()
 {
     for (const std::string& text : scenery_->shot.notices) {
@@ -136,7 +136,7 @@ void Viewer::makeBeside()
     changed_ = true;
 }
 
-/// What the settings ask for of the world: may throw after it has begun.
+/// Makes the scenery and drawings of the settings. May throw when half done.
 void Viewer::adopt(const Settings& next)
 {
     if (changesScene(settings_, next)) {

@@ -15,7 +15,7 @@
 namespace gnomon::app::view {
 namespace {
 
-/// What a setting is and takes, for the pointer that rests on it.
+/// The text about a setting where the pointer rests on it: name, meaning, range and default.
 std::string aboutOf(const Setting& setting)
 {
     std::string about = fmt::format("{}\n{}", spelled(setting), setting.doc);

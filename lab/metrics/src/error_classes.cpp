@@ -83,10 +83,9 @@ Marks dilate(const Marks& marks)
     return square;
 }
 
-/// Of a counted pixel that is not at the terminator. Where its truth is neither 0 nor 1 it is near an edge, so beyond
-/// that there are lit and unlit pixels only. A mask in [0, 1] can err to one side only at either; what errs to the
-/// other, and what is not a number, goes by the place it is at, so that the classes' squares add up to the whole
-/// whatever the masks hold.
+/// The class of a counted pixel that is not at the terminator. Where its truth is neither 0 nor 1 it is near an edge;
+/// all other pixels are lit or unlit. There a mask in [0, 1] can err to one side only. An error to the other side, or
+/// NaN, goes by its place, so that the classes' squares add up to the whole for any mask.
 ErrorClass classOf(double e, double truth, bool near_edge, bool blocker_is_near)
 {
     if (near_edge) {

@@ -33,7 +33,7 @@ struct Rows {
     [[nodiscard]] std::size_t count() const { return end - first; }
 };
 
-/// Of a picture in colour, or in grey light.
+/// The opponent planes of a picture in colour, or in grey light.
 OpponentPlanes opponentPlanes(const ImageF& image, Rows rows)
 {
     const std::size_t width = image.width;
@@ -49,7 +49,7 @@ OpponentPlanes opponentPlanes(const ImageF& image, Rows rows)
     return planes;
 }
 
-/// What the eye resolves of a picture at its distance.
+/// The planes as the eye resolves them at its distance.
 OpponentPlanes resolvedPlanes(const OpponentPlanes& planes, const ContrastFilters& filters)
 {
     return {applyFilter(planes.y, filters.achromatic), applyFilter(planes.cx, filters.red_green),

@@ -44,7 +44,7 @@ class Redistribution {
 public:
     Redistribution();
     [[nodiscard]] double operator()(double hyab_distance) const;
-    /// Of the two colours of the cube that are farthest apart, after the exponent.
+    /// The distance of the two colours of the cube that are farthest apart, after the exponent.
     [[nodiscard]] double largest() const { return largest_; }
 
 private:

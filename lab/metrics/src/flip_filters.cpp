@@ -42,7 +42,7 @@ void addScaled(const double* from, double weight, std::size_t count, double* to)
 }
 
 // (F2) g(r) = sum over lobes of a sqrt(pi / b) exp(-pi^2 r^2 / b), r = pixels / pixels_per_degree, divided by its sum
-// over the pixels. Of a lobe's round Gaussian that sum is the square of the kernel's, which gives its share.
+// over the pixels. The sum of a lobe's round Gaussian is the square of its kernel's sum, which gives its share.
 template <std::size_t Count>
 ContrastFilter contrastFilter(const Sensitivity (&sensitivities)[Count], double pixels_per_degree)
 {

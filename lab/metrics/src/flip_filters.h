@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The filters of FLIP: what the eye resolves of each opponent channel, and what it takes for edges and points.
-// Based on: P. Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", 2020.
+// The filters of FLIP: the eye's resolution of each opponent channel, and its sense of edges and points. Based on: P.
+// Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", 2020.
 #pragma once
 
 #include <cstddef>
@@ -44,7 +44,7 @@ struct ContrastFilters {
 [[nodiscard]] ContrastFilters contrastFilters(double pixels_per_degree);
 [[nodiscard]] Plane applyFilter(const Plane& plane, const ContrastFilter& filter);
 
-/// A Gaussian and its derivatives. Of the derivatives, positive weights add up to 1 and negative ones to -1.
+/// A Gaussian and its derivatives. Positive weights of a derivative add up to 1 and negative ones to -1.
 struct FeatureKernels {
     Kernel smooth; // adds up to 1
     Kernel edge;   // first derivative

@@ -47,7 +47,7 @@ public:
         return facing > kFacing ? &PixelCounts::counted : &PixelCounts::grazing;
     }
 
-    /// Of a pixel that counts.
+    /// Whether a counted pixel is at the terminator.
     [[nodiscard]] bool isTerminator(std::uint32_t x, std::uint32_t y) const
     {
         return !(facingAt(surfaces_.normals, x, y) > kFacing);

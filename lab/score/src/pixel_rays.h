@@ -47,14 +47,14 @@ public:
             glm::dot(surface.normal_ws, surface.point_ws - eye_ws) / glm::dot(surface.normal_ws, direction);
         return eye_ws + direction * t;
     }
-    /// Side of a pixel on a surface at a point that faced the eye: across the line of sight, metres.
+    /// Side of a pixel, metres, on a surface through the point that faces the eye.
     [[nodiscard]] double facingPixel_m(glm::dvec2 pixel, const glm::dvec3& point_ws) const
     {
         const glm::dvec2 middle = size_px_ * 0.5;
         const Surface facing{point_ws, glm::normalize(point(middle, 0.25) - point(middle, 0.75))};
         return glm::distance(onPlane(pixel, facing), onPlane(pixel + glm::dvec2(0.0, 1.0), facing));
     }
-    /// What pixel (x, y) sees; nothing at background.
+    /// The surface that pixel (x, y) sees; nothing at background.
     [[nodiscard]] std::optional<Surface> surfaceAt(std::uint32_t x, std::uint32_t y) const
     {
         const double depth = *seen_.depth.pixel(x, y);

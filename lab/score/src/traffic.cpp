@@ -8,7 +8,7 @@
 namespace gnomon::lab {
 namespace {
 
-/// Of a tile with its mip levels, of which there are those whose texels lie in it wholly.
+/// Texels of a tile with its mip levels. It has the levels whose texels lie wholly in it.
 struct LevelTexels {
     std::uint64_t finest = 0;
     std::uint64_t coarsest = 0; // the finest where it is the only one

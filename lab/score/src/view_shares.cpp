@@ -11,12 +11,12 @@
 namespace gnomon::lab {
 namespace {
 
-/// Of the views from `first` to `end`, in the order in which they fade over into each other; `weight` is shared out.
+/// Shares `weight` out among views, in the order in which they fade over into each other.
 void shareOut(std::span<const View> views, const glm::dvec3& point_ws, double reach_texels, double weight,
               float* shares)
 {
     bool found = false;
-    double left = 1.0; // of layered views: what those before leave
+    double left = 1.0; // of layered views: the share that earlier ones leave
     for (std::size_t i = 0; i < views.size(); ++i) {
         const View& view = views[i];
         const auto texel = texelOf(view, point_ws);

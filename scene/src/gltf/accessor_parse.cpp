@@ -223,7 +223,7 @@ void attachSparse(const Document& document, const JsonView& view, Accessor& acce
     }
 }
 
-/// Declared bounds are for whoever does not read the data; exporters round them. The data count.
+/// Declared bounds serve readers that do not read the data; exporters round them. The data count.
 void checkBounds(const JsonView& view, const Accessor& accessor)
 {
     const std::vector<ComponentRange> ranges =

@@ -210,7 +210,7 @@ void readJoints(Document& document, const JsonView& attributes, Primitive& out)
     readWeights(document, attributes, *weights, out);
 }
 
-/// Joints without weights, or weights without joints, say nothing; whoever wrote them meant something.
+/// Fails for joints without weights and weights without joints, which have no meaning.
 void checkPairs(const JsonView& attributes)
 {
     for (const auto& [name, value] : attributes.value().items()) {

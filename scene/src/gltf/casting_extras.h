@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `extras` that say who casts and who receives: {"gnomon": {"casts": false}}.
+// `extras` that say whether a node casts and receives: {"gnomon": {"casts": false}}.
 #pragma once
 
 #include "gltf/json_view.h"
@@ -7,9 +7,10 @@
 
 namespace gnomon::scene::gltf {
 
-/// A node's extras. Members that are not as docs/scenes.md has them get a notice and say nothing: no scene is lost.
+/// A node's extras. Members that are not as docs/scenes.md has them get a notice and have no effect, and the scene
+/// still loads.
 [[nodiscard]] Casting readCasting(const JsonView& node);
-/// Of a light, which has `groups` alone.
+/// A light's extras, which have `groups` alone.
 [[nodiscard]] std::optional<std::uint32_t> readLightGroups(const JsonView& light);
 
 } // namespace gnomon::scene::gltf

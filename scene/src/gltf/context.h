@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every part of the glTF reader shares: how a failure is said, and what the file has used of its limits.
+// Shared by every part of the glTF reader: the report of a failure, and the file's use of its limits.
 #pragma once
 
 #include "scene/gltf.h"
@@ -22,15 +22,15 @@ public:
     {
     }
 
-    /// Throws Error: "cannot load FILE: WHAT at WHERE: found FOUND; ADVICE". `where` is a JSON pointer, "byte N" for
-    /// what comes before there is JSON, or kWholeFile.
+    /// Throws Error: "cannot load FILE: WHAT at WHERE: found FOUND; ADVICE". `where` is a JSON pointer, "byte N" before
+    /// there is JSON, or kWholeFile.
     [[noreturn]] void fail(std::string_view where, const std::string& what, const std::string& found = {},
                            const std::string& todo = {}) const;
     /// A limit of `Limits` is exceeded; `name` is the flag's name for it.
     [[noreturn]] void failLimit(std::string_view where, const std::string& what, std::string_view name,
                                 std::uint64_t limit, std::uint64_t found) const;
 
-    /// Counts bytes that files have; what may be decoded grows with them. Call it before their bytes are charged.
+    /// Counts bytes of files, with which the limit of decoded bytes grows. Call it before their bytes are charged.
     void noteFile(std::uint64_t bytes);
     /// Counts bytes about to be read or allocated; throws when they pass total-bytes, or are out of proportion to the
     /// files. Call it before allocating.
@@ -42,7 +42,7 @@ public:
     void checkCount(std::uint64_t count, std::string_view where) const;
     void checkFileBytes(std::uint64_t bytes, std::string_view where) const;
 
-    /// Keeps a sentence once, whatever the number of times it is said.
+    /// Keeps a sentence, each once.
     void notice(const std::string& sentence);
 
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }

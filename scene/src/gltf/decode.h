@@ -16,7 +16,7 @@ namespace gnomon::scene::gltf {
 
 enum class ImageFormat : std::uint8_t { unknown, png, jpeg, webp, ktx2, avif, dds };
 
-/// What the first bytes say.
+/// The format that the first bytes show.
 [[nodiscard]] ImageFormat sniff(std::span<const std::byte> bytes);
 /// "image/png" and so on; empty for unknown.
 [[nodiscard]] const char* mediaType(ImageFormat format);
@@ -29,11 +29,11 @@ using SizeCheck = std::function<void(std::uint32_t width, std::uint32_t height)>
 /// Fills width, height and rgba of `image`. Returns what is wrong with the data, or an empty string.
 [[nodiscard]] std::string decodePng(std::span<const std::byte> bytes, const SizeCheck& check, Image& image);
 [[nodiscard]] std::string decodeJpeg(std::span<const std::byte> bytes, const SizeCheck& check, Image& image);
-/// Decodes nothing of an animation.
+/// Refuses an animation.
 [[nodiscard]] std::string decodeWebp(std::span<const std::byte> bytes, const SizeCheck& check, Image& image);
 
 using Decoder = std::string (*)(std::span<const std::byte> bytes, const SizeCheck& check, Image& image);
-/// Null where there is none: for AVIF, KTX2, DDS and what is unknown.
+/// Null where there is none: for AVIF, KTX2, DDS and unknown formats.
 [[nodiscard]] Decoder decoderOf(ImageFormat format);
 
 } // namespace gnomon::scene::gltf

@@ -35,7 +35,7 @@ struct Document {
     Scene scene; // grows as parts are read
 
     bool quantization = false;                   // KHR_mesh_quantization is used
-    std::deque<std::vector<std::byte>> unpacked; // where bytes lie that the file has compressed
+    std::deque<std::vector<std::byte>> unpacked; // the unpacked bytes of compressed parts
     std::vector<Buffer> buffers;
     std::vector<BufferView> views;
     std::vector<Accessor> accessors;
@@ -64,14 +64,15 @@ void readMaterials(Document& document);
 void readMeshes(Document& document);
 void readCameras(Document& document);
 void readLights(Document& document);
-/// Nodes of the scene shown, parents first; then skins, which name nodes, and what joins both.
+/// Reads the nodes of the shown scene, parents first; then skins, which name nodes, and joins both.
 void readNodes(Document& document);
 void readSkins(Document& document);
 void readAnimations(Document& document);
 
 /// Fails at `view` where the accessor has a NaN or an infinity; else returns smallest and largest value per component.
 std::vector<ComponentRange> requireFinite(const JsonView& view, const Accessor& accessor);
-/// Says so where the view of an accessor that is not of vertices has a stride. `what` it is of, in the plural.
+/// Adds a notice where the view of an accessor that is not of vertices has a stride. `what` names its content in the
+/// plural.
 void noticeStride(const Document& document, const Accessor& accessor, const std::string& what);
 /// Refuses a known extension in a place where it has no meaning.
 void checkExtensions(const JsonView& object, Place place);

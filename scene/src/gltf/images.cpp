@@ -15,7 +15,7 @@ struct Encoded {
     Resource resource; // owns the bytes when they come from a URI
     std::span<const std::byte> bytes;
     std::string missing; // why there are none; empty: there are
-    JsonView where;      // whom to blame for a wrong media type
+    JsonView where;      // the place of a wrong media type, for errors
 };
 
 Encoded findEncoded(const Document& document, const JsonView& view)

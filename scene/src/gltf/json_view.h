@@ -33,7 +33,7 @@ public:
 
     /// Member of an object; fails when this is no object.
     [[nodiscard]] std::optional<JsonView> find(std::string_view key) const;
-    /// The same, failing when the member is missing.
+    /// Member of an object; fails when it is missing.
     [[nodiscard]] JsonView at(std::string_view key) const;
     [[nodiscard]] bool has(std::string_view key) const { return find(key).has_value(); }
     void expectObject() const;

@@ -8,7 +8,7 @@ namespace gnomon::scene::gltf {
 
 /// The extension of a buffer or of a buffer view.
 [[nodiscard]] std::optional<JsonView> meshoptOf(const JsonView& object);
-/// Whether a buffer is a place for what its views unpack to; what it holds is for readers without the extension.
+/// Whether a buffer is a place for its views' unpacked data. Its own content is for readers without the extension.
 [[nodiscard]] bool isMeshoptFallback(const JsonView& buffer);
 /// The content of the buffer view of `packed`, its extension; kept by the document. `length`: the view's own.
 /// Empty where the buffer has no content.

@@ -67,8 +67,8 @@ void readClipPlane(const JsonView& view, glm::vec4& plane)
     plane = glm::vec4(unit);
 }
 
-/// What glTF leaves to applications. Ours: {"clip_planes": [[a, b, c, d]]} leaves of the node's mesh what has
-/// a x + b y + c z + d >= 0, for each of up to two planes.
+/// glTF leaves `extras` to applications. Ours: {"clip_planes": [[a, b, c, d]]} keeps the part of the node's mesh with a
+/// x + b y + c z + d >= 0, for each of up to two planes.
 void readExtras(const JsonView& view, Node& node)
 {
     const std::optional<JsonView> extras = view.find("extras");
@@ -136,8 +136,8 @@ void hide(Node& node)
     node.instances.clear();
 }
 
-/// What evaluating the scene will ask for: a million nodes may share a mesh of a million primitives, and each node of
-/// a skinned or morphed mesh gets vertices of its own.
+/// Checks the size of the evaluated scene: a million nodes may share a mesh of a million primitives, and each node of a
+/// skinned or morphed mesh gets vertices of its own.
 void checkObjects(Document& document, const std::vector<std::uint32_t>& order)
 {
     Context& context = document.context();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a node can place besides meshes: cameras and punctual lights.
+// Cameras and punctual lights, which nodes place besides meshes.
 #include "gltf/casting_extras.h"
 #include "gltf/document.h"
 
@@ -62,8 +62,8 @@ void readSpot(const JsonView& view, Light& light)
     }
 }
 
-/// What glTF leaves to applications. Ours: {"casts_shadow": false} is a light that shines through everything, and
-/// {"gnomon": {"groups": [0, 3]}} one that shines through what is in neither group.
+/// glTF leaves `extras` to applications. Ours: {"casts_shadow": false} is a light that shines through everything, and
+/// {"gnomon": {"groups": [0, 3]}} one that shines through objects in neither group.
 void readExtras(const JsonView& view, Light& light)
 {
     const std::optional<JsonView> extras = view.find("extras");

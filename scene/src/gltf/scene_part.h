@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which nodes of a file its scene shows.
+// The nodes of a file that its scene shows.
 #pragma once
 
 #include "gltf/document.h"

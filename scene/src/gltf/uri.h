@@ -20,7 +20,7 @@ struct Resource {
 /// Fetches what the string `uri` names: a data URI (base64 or percent-encoded), or a relative path below the asset's
 /// folder. Other schemes, absolute paths, "..", and symbolic links that lead outside are refused.
 [[nodiscard]] Resource fetch(const JsonView& uri);
-/// The same; nothing where the path leads to no file.
+/// fetch(), but nothing where the path leads to no file.
 [[nodiscard]] std::optional<Resource> fetchIfThere(const JsonView& uri);
 
 /// Reads a whole regular file within the limits. `where` is what an error says about the place that named it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an engine does that draws by itself: it scores a mask of its own with plain images, a camera and a light. This
+// The use by an engine that draws by itself: it scores a mask of its own with plain images, a camera and a light. This
 // binary links neither our host nor the backend.
 #include "lab/score/score.h"
 #include "lab/score/traffic.h"
@@ -108,7 +108,7 @@ TEST(EngineScore, KnowsWhatItsMapsDeliver)
         const Plan& plan = planner.plan(frame);
         const TexelDensity delivered = texelDensity(seen, counted, plan, 0, 1.0);
         EXPECT_GT(delivered.counted, 1000U);
-        if (map_size == 512) { // twice the texels along each side, but for the border, which is of a fixed width
+        if (map_size == 512) { // twice the texels along each side, except for the border of fixed width
             EXPECT_NEAR(delivered.p50 / density, 2.0, 0.1);
         }
         density = delivered.p50;

@@ -100,7 +100,7 @@ TEST(Stability, TheErrorAtThePointItselfGoesBeforeThatOfThePixelsAround)
         EXPECT_EQ(meter.steps()[0].matched, kWidth * kHeight);
         EXPECT_EQ(meter.stability().value().shimmer == 0.0, exact);
     }
-    // What the frame then did not see does not count, even where its moment could be seen from here.
+    // Surfaces that the last frame did not see do not count, even where its moment can be seen from here.
     const Frame elsewhere(100.0);
     const Reprojection onto_nothing(now.seen(), elsewhere.seen());
     const ImageF error_here = errorOf(litFrom(6), lit);
@@ -293,8 +293,8 @@ TEST(Stability, APerspectiveCameraFindsThePointsAgain)
         static_cast<std::uint64_t>(std::count(now.counted.values.begin(), now.counted.values.end(), std::uint8_t{1}));
     EXPECT_GT(onto_before.matched(), surfaces * 95 / 100);
     EXPECT_LT(onto_before.matched(), surfaces); // what the box hid, and what was outside
-    // An image that holds each pixel's place along each axis must give the pixel's own place back. What is linear in
-    // the world is not quite so between pixels, nor is a neighbour that stands in for one without a match.
+    // An image that holds each pixel's place along each axis must give the pixel's own place back. Values linear in the
+    // world are not quite so between pixels, nor with a neighbour in place of a pixel without a match.
     for (std::size_t axis = 0; axis < 3; ++axis) {
         ImageF places(before.counted.width, before.counted.height, 1);
         for (std::size_t i = 0; i < places.values.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each of a light's maps counts for, on a plane that is seen aslant.
+// The shares of a light's maps, on a plane that is seen aslant.
 #include "lab/score/view_shares.h"
 
 #include <gnomon/plan_views.h>

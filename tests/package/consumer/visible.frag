@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// What shaders of a host include, found beside the installed headers.
+// The includes of a host's shaders, found beside the installed headers.
 #extension GL_GOOGLE_include_directive : require
 #include "gnomon/visibility.glsl"
 

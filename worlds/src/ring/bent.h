@@ -13,7 +13,7 @@
 
 namespace gnomon::worlds {
 
-/// Stands on the deck, upright there: +x is along the ring, +y up, +z across. `yaw_rad` turns about up.
+/// The transform of a thing upright on the deck: +x is along the ring, +y up, +z across. `yaw_rad` turns about up.
 [[nodiscard]] Transform onRing(double tiles, double across_m, float yaw_rad = 0.0F, double height_m = 0.0,
                                float scale = 1.0F);
 
@@ -24,8 +24,8 @@ struct BentVertex {
     glm::vec4 colour{1.0F};
 };
 
-/// What a bent box is painted with: its two long sides, towards -z and +z or, where it stands across the ring, towards
-/// where tiles are fewer and more; and all other sides.
+/// The colours of a bent box: its two long sides, towards -z and +z or, where it stands across the ring, towards
+/// smaller and larger tiles; and all other sides.
 struct BentPaint {
     glm::vec4 low{1.0F};
     glm::vec4 high{1.0F};
@@ -42,8 +42,8 @@ struct BentExtents {
     Extent across_m;
 };
 
-/// Triangles in world space, of which a point depends on nothing but its own coordinates: what is built in pieces that
-/// share a border has the same numbers on both its sides.
+/// Triangles in world space. A point depends on its own coordinates alone, so that pieces that share a border have the
+/// same numbers there.
 class BentPart {
 public:
     /// `at(u, v)` is the vertex at [0, 1] x [0, 1]. Triangles face the way their normals point.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the world `ring` is built of: deck and hull in tiles, rooms on both sides of the promenade.
+// The structure of the world `ring`: deck and hull in tiles, rooms on both sides of the promenade.
 #pragma once
 
 #include "palette.h"
@@ -12,13 +12,13 @@ namespace gnomon::worlds {
 
 enum class Room : std::uint8_t { bar, lounge, garden, market, berths, lab, stores, workshop, engine };
 
-/// Of a sector's side, -1 or 1 (of z).
+/// The room of a sector's side, -1 or 1 (of z).
 [[nodiscard]] Room roomOf(int sector, int side);
-/// Gardens and markets are open.
+/// Whether the room has walls: gardens and markets are open.
 [[nodiscard]] bool isWalled(Room room);
 
-/// Clip planes cut away the upper part of the room's front and what hangs there, as the game did where a wall stood
-/// between the camera and a room: the view `overview` looks into it.
+/// Whether clip planes cut away the upper part of the room's front and the things that hang there. The game did so
+/// where a wall stood between the camera and a room; the view `overview` looks into it.
 [[nodiscard]] bool isFrontCutAway(int sector, int side);
 
 struct RoomColours {
@@ -28,7 +28,7 @@ struct RoomColours {
 };
 [[nodiscard]] RoomColours coloursOf(Room room);
 
-/// Deck and hull cast nothing: what they enclose is convex, so they stand between no two points of it.
+/// Deck and hull cast nothing: they enclose a convex space, so they stand between no two points of it.
 void addDeck(Scene& scene, const RingPalette& palette, std::uint64_t seed);
 /// Walls with doors and windows, posts where they meet, and beams over the deck.
 void addRooms(Scene& scene, const RingPalette& palette);

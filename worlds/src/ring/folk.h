@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Those who live in the world `ring`: they go round the promenade both ways, or stand about.
+// The people of the world `ring`: they go round the promenade both ways, or stand about.
 #pragma once
 
 #include "palette.h"
@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kFolkKinds = 4;
 class Folk {
 public:
     Folk(Scene& scene, const RingPalette& palette, std::uint64_t seed);
-    /// One who stands still; `transform` is of the feet, facing +z.
+    /// Adds a person who stands still; `transform` is of the feet, facing +z.
     void addStanding(Scene& scene, const Transform& transform, std::uint32_t kind) const;
     /// A pure function of the time.
     void pose(double time_s, std::vector<Node>& nodes) const;

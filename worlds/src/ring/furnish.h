@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where everything stands in the world `ring`.
+// The places of all things in the world `ring`.
 #pragma once
 
 #include "folk.h"
@@ -10,7 +10,7 @@ namespace gnomon::worlds {
 
 inline constexpr double kRail_m = 3.1; // height of the rails over rooms
 
-/// What rooms are furnished from, each mesh once.
+/// The meshes that rooms are furnished with, each once.
 struct Wares {
     std::uint32_t stool, table, shelf, jukebox, glasses, bench, nightstand;
     std::array<std::uint32_t, 3> chairs, sofas, beds, lockers, crates, drums, consoles, stalls, planters;
@@ -29,7 +29,7 @@ public:
           rng_seed_(static_cast<std::uint32_t>(sector * 2 + (side > 0 ? 1 : 0)))
     {
     }
-    /// All of what belongs into the room.
+    /// Puts all things into the room.
     void furnish();
 
 private:
@@ -48,7 +48,7 @@ private:
     void counter(int from, int to, double depth_m);
     void rug(double tiles, double depth_m, double radius_m, std::uint32_t srgb, std::uint32_t border);
 
-    /// What stands before a room's walls.
+    /// Puts the things before a room's walls.
     void promenade();
     void bar(bool large);
     void lounge();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands in the rooms of the world `ring`. Each stands on y = 0 around the origin, its front towards +z. Feet
-// reach a little lower, because the deck is bent and they are not.
+// The furniture in the rooms of the world `ring`. Each piece stands on y = 0 around the origin, its front towards +z.
+// Feet reach a little lower, because the deck is bent and they are not.
 #pragma once
 
 #include "palette.h"

@@ -12,7 +12,7 @@
 namespace gnomon::worlds {
 
 /// A lamp's origin is its bulb. `caged` and `sconce` hang on a wall that is kOffWall_m behind them (-z), `pendant`,
-/// `pierced` and `lantern` from something kCord_m above, and the others stand on what is footOf() below.
+/// `pierced` and `lantern` from something kCord_m above, and the others stand on something footOf() below.
 enum class Lamp : std::uint8_t { pendant, pierced, lantern, caged, sconce, table, drum, bollard, reactor };
 inline constexpr std::size_t kLamps = 9;
 inline constexpr float kOffWall_m = 0.15F;
@@ -21,7 +21,7 @@ inline constexpr float kCord_m = 1.0F;
 /// Radius of its bulb, which is that of its light.
 [[nodiscard]] float bulbOf(Lamp lamp);
 
-/// What a light gives: `strength` is its illuminance at half its range, where 1 is a well lit place.
+/// The light of a lamp. `strength` is its illuminance at half its range; 1 is a well lit place.
 struct Shine {
     Hue hue = Hue::warm;
     float range_m = 5.0F;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is seen beyond the hull. It shines by itself and takes no part in shadows.
+// The sky beyond the hull. It shines by itself and takes no part in shadows.
 #include "../mesh_maker.h"
 #include "../rng.h"
 #include "../scene_maker.h"

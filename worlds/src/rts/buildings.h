@@ -15,14 +15,14 @@ namespace gnomon::worlds {
 [[nodiscard]] Mesh makeCottage(const Palette& palette, int variant);
 [[nodiscard]] Mesh makeRoundhouse(const Palette& palette);
 [[nodiscard]] Mesh makePavilion(const Palette& palette, std::uint32_t srgb);
-/// Without its sails, whose hub sits at kSailHub.
+/// A windmill without its sails, whose hub is at kSailHub.
 [[nodiscard]] Mesh makeWindmill(const Palette& palette);
 [[nodiscard]] Mesh makeSails(const Palette& palette);
 inline constexpr glm::vec3 kSailHub{0.0F, 9.6F, 2.55F};
 
 /// A stretch of palisade along x, `length_m` long.
 [[nodiscard]] Mesh makePalisade(const Palette& palette, float length_m);
-/// A flag on the +x side of a pole that is not part of it; waves about +y.
+/// A flag on the +x side of a pole, without the pole; it waves about +y.
 [[nodiscard]] Mesh makeFlag(const Palette& palette, std::uint32_t srgb);
 [[nodiscard]] Mesh makeFlagpole(const Palette& palette, float height_m);
 inline constexpr float kKeepFlag_m = 17.5F; // where the keep's flag flies

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves in the world `rts`: squads on their loops, a giant, debris in its swarms, sails and flags. All are pure
-// functions of the time.
+// The moving things of the world `rts`: squads on their loops, a giant, debris in its swarms, sails and flags. All are
+// pure functions of the time.
 #pragma once
 
 #include "loops.h"
@@ -42,7 +42,7 @@ private:
     std::vector<Squad> squads_;
 };
 
-/// A figure of three metres with a skin over eleven joints, who walks the far round by himself.
+/// A figure of three metres with a skin over eleven joints, which walks the far round alone.
 class Giant {
 public:
     /// `start_m`: how far along his loop he is at time 0.

@@ -9,7 +9,7 @@
 namespace gnomon::worlds {
 namespace {
 
-/// Made on another thread, or by whoever asks for it where no thread can be had.
+/// Makes an image on another thread, or on the calling one where no thread can be had.
 std::future<Image> begun(Image (*make)())
 {
     return std::async(std::launch::async | std::launch::deferred, make);

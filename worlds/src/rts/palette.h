@@ -14,7 +14,7 @@ struct Palette {
     std::uint32_t shingle = kNone;
     std::uint32_t thatch = kNone;
     std::uint32_t plain = kNone; // vertex colours alone
-    std::uint32_t cloth = kNone; // likewise, seen from both sides
+    std::uint32_t cloth = kNone; // vertex colours alone, seen from both sides
     std::uint32_t rock = kNone;
     std::uint32_t fire = kNone;
     std::uint32_t crystal = kNone;

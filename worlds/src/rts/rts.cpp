@@ -23,7 +23,7 @@ namespace gnomon::worlds {
 
 namespace {
 
-/// What the animator needs for as long as the scene lives.
+/// The animator's data, which live as long as the scene.
 struct Actors {
     std::array<Loop, kLoopCount> loops;
     Terrain terrain;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the buildings and the things between them stand.
+// The places of buildings and the things between them.
 #pragma once
 
 #include "crowds.h"
@@ -12,7 +12,7 @@ namespace gnomon::worlds {
 
 inline constexpr std::uint32_t kBuildings = 60;
 
-/// Adds the camp, its palisade, two villages and what stands alone. Returns the ground that is taken.
+/// Adds the camp, its palisade, two villages and single buildings. Returns the ground that they take.
 std::vector<Site> addSettlements(Scene& scene, const Palette& palette, const Terrain& terrain, Turners& turners);
 
 } // namespace gnomon::worlds

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the hour does to the light and the sky of the world `sundial`.
+// Light and sky of the world `sundial` by the hour.
 #pragma once
 
 #include "../scene_names.h"
@@ -9,7 +9,7 @@
 namespace gnomon::worlds {
 
 [[nodiscard]] Environment skyAt(double time_s);
-/// What the sun gives, as a share of its colour: SundialWorld::sunStrength, and redder the lower it stands.
+/// The sun's light as a share of its colour: SundialWorld::sunStrength, redder the lower the sun stands.
 [[nodiscard]] glm::vec3 sunlightAt(double time_s);
 
 } // namespace gnomon::worlds

@@ -142,7 +142,7 @@ void addArcade(const SundialPalette& palette, MeshMaker& maker)
         const float inner = outer - side * kPier_m;
         wall.box({std::min(outer, inner), 2.72F, kHalfDepth_m - 0.1F},
                  {std::max(outer, inner), leanTo(back) - 0.10F, back}, 1.0F, true);
-        // What is left between the row of arches' front and the roof at the corner.
+        // The gap between the row of arches' front and the roof at the corner.
         const glm::vec3 low(outer, kSpring_m, front);
         const std::array<glm::vec3, 4> end{
             low, {outer, kSpring_m, back}, {outer, leanTo(back) - 0.05F, back}, {outer, kArchTop_m, front}};

@@ -295,7 +295,7 @@ void addViews(Scene& scene, const Meadow& meadow)
     };
 }
 
-/// What the animator needs for as long as the scene lives.
+/// The animator's data, which live as long as the scene.
 struct Stage {
     Loop path;
     Meadow meadow;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands on the meadow of the world `sundial`. Unless said otherwise a thing stands on y = 0 around the origin.
+// The things on the meadow of the world `sundial`. Unless said otherwise a thing stands on y = 0 around the origin.
 #pragma once
 
 #include "../rts/palette.h"
@@ -10,7 +10,7 @@
 
 namespace gnomon::worlds {
 
-/// The materials of the world: those of `rts`, and what it has none of.
+/// The materials of the world: those of `rts`, and further ones.
 struct SundialPalette {
     Palette common;
     std::uint32_t plaster = kNone;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one who walks the path of the world `sundial`, all day long and in whole rounds, so that days repeat.
+// The walker on the path of the world `sundial`. It walks all day long in whole rounds, so that days repeat.
 #pragma once
 
 #include "meadow.h"
