@@ -188,7 +188,7 @@ scene::Primitive disc(const glm::vec3& centre, float radius)
     add(centre, 1.0F);
     for (int ring = 0; ring <= kRings; ++ring) {
         const float t = static_cast<float>(ring) / kRings;
-        const float r = radius / glm::mix(1.0F / kWhole, 1.0F, t); // evenly in the picture of who stands on it
+        const float r = radius / glm::mix(1.0F / kWhole, 1.0F, t); // even in the picture of a viewer on it
         const float alpha = 1.0F - t * t * (3.0F - 2.0F * t);
         for (int spoke = 0; spoke < kSpokes; ++spoke) {
             const float angle = glm::two_pi<float>() * static_cast<float>(spoke) / kSpokes;

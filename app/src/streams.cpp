@@ -65,8 +65,8 @@ void holdStandardStreams() noexcept
 {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF) {
-            // open() gives the lowest number that is free, which is this one. The wrong way round on purpose: who reads
-            // or writes is to hear of it.
+            // open() gives the lowest number that is free, which is this one. The wrong way round on purpose: a read or
+            // write there must fail.
             (void)::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
         }
     }

@@ -157,7 +157,7 @@ double coarserInUpperHalf()
     return kCodes / used;
 }
 
-/// The same of floats at a share of the range.
+/// By how much a step of floats at a share of the range grows when depth is moved into the half from 0.5 to 1.
 double coarserInUpperHalf(double depth)
 {
     return floatStepAt(0.5 + 0.5 * depth) / 0.5 / floatStepAt(depth);

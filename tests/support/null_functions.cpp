@@ -73,7 +73,7 @@ void takeAway(const NullLimits& limits, VkBaseOutStructure* structure)
     }
 }
 
-// All that were asked for are there, but for what the limits take away. A structure of features is its head and
+// All that were asked for are there, without those that the limits take away. A structure of features is its head and
 // VkBool32s.
 VKAPI_ATTR void VKAPI_CALL getFeatures(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* features)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// soften=blur on the CPU, by the arithmetic that the GPU runs; in double precision, by GNOMON_REAL of who
-// includes it.
+// soften=blur on the CPU, by the arithmetic that the GPU runs; in double precision where the includer
+// defines GNOMON_REAL so.
 #pragma once
 
 #include "scene.h"
