@@ -210,7 +210,7 @@ class Program(unittest.TestCase):
         status, out, _ = run("--markdown", "2011-range", "2011-octree")
         self.assertEqual(status, 0)
         self.assertIn("| `2011-range` | ", out)
-        self.assertIn("# 2011-octree\ngnomon plan ", out)
+        self.assertIn("| `2011-octree` | ", out)
         status, out, _ = run("--json", "2011-range")
         self.assertEqual((status, json.loads(out)["claims"][0]["recorded"]), (0, HOLDS))
 
