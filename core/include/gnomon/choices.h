@@ -118,11 +118,11 @@ struct FilterTraits {
     bool depth_only;                    // a bare depth attachment can hold it
     bool clamps_near;                   // a caster before the near plane may be clamped onto it
     bool filterable;                    // texels may be averaged: MomentOptions apply, and receivers are drawn too
-    bool integrates_light; // it always does, by comparing single depths: see integratesLight() (options.h)
-    bool weighs_frames;    // Soften::converge: a frame counts for more, the nearer to a texel's centre it reads
-    bool ids = false;      // texels hold ids of objects (object_ids.h): receivers are drawn too, and the mask gets the
-                           // object of each pixel
-    bool has_maps = true;  // false: it counts faces of shadow volumes, and a light so planned has no views
+    bool integrates_light;              // it always does, by comparing single depths: see integratesLight() (options.h)
+    bool weighs_frames;   // Soften::converge: a frame counts for more, the nearer to a texel's centre it reads
+    bool ids = false;     // texels hold ids of objects (object_ids.h): receivers are drawn too, and the mask gets the
+                          // object of each pixel
+    bool has_maps = true; // false: it counts faces of shadow volumes, and a light so planned has no views
 };
 /// The row of a filter. Null for automatic, which stands for another filter (filterOf()).
 [[nodiscard]] GNOMON_API const FilterTraits* filterTraits(Filter filter);

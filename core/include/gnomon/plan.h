@@ -95,9 +95,9 @@ struct SunSteps {
 struct AutoChoice {
     bool made = false; // the light leaves one of them to the planner, and something was in sight to choose by
     Partition partition = Partition::single; // the partition that was chosen
-    double texels_per_pixel = 0.0; // predicted before drawing: geometric mean over what is probably seen
-    double error = 0.0;            // predicted share of wrong pixels, 0 .. 1; useful only for comparison
-    double other_error = 0.0;      // the same for the partition that was not taken; 0: there was no other
+    double texels_per_pixel = 0.0;           // predicted before drawing: geometric mean over what is probably seen
+    double error = 0.0;                      // predicted share of wrong pixels, 0 .. 1; useful only for comparison
+    double other_error = 0.0;                // the same for the partition that was not taken; 0: there was no other
     /// How many times the side of its maps was halved, because finer texels are predicted to gain nothing.
     std::uint32_t halvings = 0;
     std::string_view reason; // a sentence with static lifetime
@@ -109,7 +109,7 @@ struct LightSample {
     bool joined = false;                     // false: the light's own place; nothing below counts
     glm::dvec3 position_ws{0.0};             // spot, point: metres
     glm::dvec3 direction_ws{0.0, -1.0, 0.0}; // unit, the way light travels
-    std::uint32_t number = 0; // frames since the last cut, from 0 on, modulo 1024; noise depends on it
+    std::uint32_t number = 0;                // frames since the last cut, from 0 on, modulo 1024; noise depends on it
 };
 
 /// The plan of one light of the frame.

@@ -191,7 +191,7 @@ struct ViewProjection {
 /// The casters that are drawn into a view's map (ObjectFlags::casts): a range of Plan::casters. With a kept layer,
 /// first the still ones, then the moving ones (ObjectFlags::dynamic), each ascending; without one, all ascending.
 struct ViewCasters {
-    std::uint32_t first = 0; // of Plan::casters
+    std::uint32_t first = 0; // index into Plan::casters
     std::uint32_t count = 0; // how many there are
     std::uint32_t still = 0; // how many of them stand still; used only with a kept layer
 };
