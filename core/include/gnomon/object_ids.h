@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Filters id and depth-id: a texel holds the id of an object. It tells the pixel's own object from what shades it,
 // without a bias. Ids are few, so that they fit a texel of 8 or 16 bits; the planner hands them out for each light anew
-// in each frame. Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006 (ID buffers; 0 is the ground's, the
-// others go by render order, front to back, so that objects with one id are far apart). Departures: the ground is what
-// does not cast (ObjectFlags::casts, groups), and 0 also stands for texels that nothing was drawn to; such texels light
-// everything. "Front" is measured along the light and not from the camera, so that ids do not change as the camera
-// moves, and that the lower of two ids is in front (IdTest::priority).
+// in each frame.
+// Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006 (ID buffers; 0 is the ground's, the others go by render
+// order, front to back, so that objects with one id are far apart). Departures: the ground is what does not cast
+// (ObjectFlags::casts, groups), and 0 also stands for texels that nothing was drawn to; such texels light everything.
+// "Front" is measured along the light and not from the camera, so that ids do not change as the camera moves, and that
+// the lower of two ids is in front (IdTest::priority).
 #pragma once
 
 #include <gnomon/export.h>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The draws of filter volumes: for each light the casters' shadow volumes, counted in a stencil buffer behind what is
-// seen (z-fail), and then the light's channel of the mask by that count. Based on: M. McGuire, J. F. Hughes, K. T.
-// Egan, M. J. Kilgard, C. Everitt, "Fast, Practical and Robust Shadows", 2003.
+// seen (z-fail), and then the light's channel of the mask by that count.
+// Based on: M. McGuire, J. F. Hughes, K. T. Egan, M. J. Kilgard, C. Everitt, "Fast, Practical and Robust Shadows",
+// 2003.
 //
 // Another backend does this for each draw: clear the stencil within `pixels`; draw every caster's volume
 // (gnomon/shared/shadow_volume.h) with depth clamped, not clipped, depth tested and not written. Where the test fails,

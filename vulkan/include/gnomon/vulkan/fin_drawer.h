@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws fins of smoothies for hosts with ordinary meshes, where DrawCasters is called for them (ClassicFormats::fins).
 // Silhouettes are found on the GPU, from the positions at the time of drawing, so skinned and morphed meshes need
-// nothing more. Based on: E. Chan, F. Durand, "Rendering Fake Soft Shadows with Smoothies", EGSR 2003.
+// nothing more.
+// Based on: E. Chan, F. Durand, "Rendering Fake Soft Shadows with Smoothies", EGSR 2003.
 #pragma once
 
 #include <gnomon/export.h>

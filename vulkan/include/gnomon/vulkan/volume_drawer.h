@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws shadow volumes for hosts with ordinary meshes: a ready-made DrawVolumes callback. The volumes are made on the
-// GPU, from the positions at the time of drawing, so skinned and morphed meshes need nothing more. Based on: M.
-// McGuire, J. F. Hughes, K. T. Egan, M. J. Kilgard, C. Everitt, "Fast, Practical and Robust Shadows", 2003.
+// GPU, from the positions at the time of drawing, so skinned and morphed meshes need nothing more.
+// Based on: M. McGuire, J. F. Hughes, K. T. Egan, M. J. Kilgard, C. Everitt, "Fast, Practical and Robust Shadows",
+// 2003.
 #pragma once
 
 #include <gnomon/export.h>
