@@ -3,7 +3,7 @@
 // clip_from_world * p, or gnomonCasterPlaced() of that for a MapPass with a `placement`, and passes on
 // gnomonCasterMetric(). The fragment shader writes by MapPass::formats:
 //   colour is not UNDEFINED   gnomonCasterTexel() to attachment 0; `holding` is 2 for R8G8B8A8_UNORM, else 0
-//   ids                       gnomonCasterIdTexel() to attachment 0 instead; with `pieces` its id is gnomonCasterPieceId()
+//   ids                       gnomonCasterIdTexel() to attachment 0 instead; with `pieces` by gnomonCasterPieceId()
 //   write_frag_depth          gnomonCasterDepth() to gl_FragDepth; with several samples the metric's input is `sample`
 //   else                      nothing: the rasteriser's depth is the metric
 // For an object that clip planes cut, the vertex shader writes gnomonCasterInside() to gl_ClipDistance, one for each
