@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every Vulkan program has and the example hosts share: a device, buffers, images and pipelines. An engine has its
-// own.
+// The parts of a Vulkan program that the example hosts share: a device, buffers, images and pipelines. An engine has
+// its own.
 #pragma once
 
 #include <gnomon/vulkan/device_view.h>
@@ -114,7 +114,7 @@ struct Cube {
     }
 };
 
-/// What is drawn to, and then read or copied.
+/// An image that is drawn to, and then read or copied.
 struct Target {
     vk::raii::Image image;
     vk::raii::DeviceMemory memory;
@@ -149,7 +149,7 @@ inline void transition(const vk::raii::CommandBuffer& commands, vk::Image image,
     commands.pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(barrier));
 }
 
-/// Of triangles with three floats a vertex. Viewport and scissor are dynamic.
+/// A pipeline for triangles with three floats a vertex. Viewport and scissor are dynamic.
 struct PipelineWish {
     std::span<const std::uint32_t> vertex;
     std::span<const std::uint32_t> fragment; // empty: none
@@ -228,7 +228,7 @@ inline std::vector<std::uint8_t> readBack(const Device& d, vk::Image image, vk::
     return {first, first + bytes};
 }
 
-/// Of four bytes a pixel the first three.
+/// Writes the first three of four bytes a pixel.
 inline void writePpm(const std::string& path, vk::Extent2D size, const std::vector<std::uint8_t>& pixels)
 {
     std::ofstream out(path, std::ios::binary);

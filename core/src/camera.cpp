@@ -24,7 +24,7 @@ glm::dmat4 clipFromWorld(const Camera& camera)
 
 bool sameSight(const Camera& before, const Camera& now, const glm::uvec2& size_px)
 {
-    constexpr double kRounding = 1e-9; // of a row's length
+    constexpr double kRounding = 1e-9; // share of a row's length
     const glm::dvec2 shift = (now.jitter_px - before.jitter_px) * 2.0 / glm::dvec2(size_px);
     for (int i = 0; i < 4; ++i) {
         const glm::dvec4 row = glm::row(now.clip_from_world, i);

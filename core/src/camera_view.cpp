@@ -86,7 +86,7 @@ void addDistancePlanes(const Camera& camera, const CameraView& view, double max_
     }
 }
 
-/// Of a perspective camera w grows along the view axis, of an orthographic one z does, or falls.
+/// For a perspective camera w grows along the view axis; for an orthographic one z grows, or falls.
 void findAxis(const Camera& camera, CameraView& view)
 {
     const glm::dmat4 rows = glm::transpose(clipFromWorld(camera));
@@ -118,7 +118,8 @@ void CameraView::measureDepths(const ObjectSet& objects, const std::vector<std::
         if (depth_m - reach_m >= near_m && depth_m + reach_m <= far_m) {
             continue;
         }
-        // Of a box that reaches out of sight only a part is seen. Clipping takes a microsecond, so not for all.
+        // Only a part is seen of a box that reaches out of sight. Clipping takes a microsecond, so not all boxes are
+        // clipped.
         if (cut_boxes == kMostCutBoxes) {
             near_m = std::min(near_m, depth_m - reach_m);
             far_m = std::max(far_m, depth_m + reach_m);

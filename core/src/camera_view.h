@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the camera sees: the convex region that it can see into, and the receivers in it.
+// The camera's view: the convex region that it can see into, and the receivers in it.
 #pragma once
 
 #include <gnomon/frame.h>
@@ -16,7 +16,7 @@ struct CameraView {
     bool perspective = true;               // else near and far things are seen equally large
     glm::dmat4 clip_from_world{1.0};
     std::vector<Plane> planes; // inward; planes at infinity are left out
-    double pad_m = 0.0;        // what a float coordinate of this scene may be off
+    double pad_m = 0.0;        // largest error of a float coordinate in this scene
     Aabb scene_ws;
 
     /// Depths along forward_ws from the eye: between which the receivers are that it sees, by measureDepths(); or could

@@ -14,11 +14,11 @@
 
 namespace gnomon {
 
-/// What a map was planned for: which receivers it can serve.
+/// The ground that a map was planned for: the receivers that it can serve.
 struct ViewGround {
     LightSpace space;
-    std::vector<Plane> planes;       // of the body, inward
-    std::vector<glm::dvec2> outline; // of what of it is lit, as Region::outline()
+    std::vector<Plane> planes;       // the body's, inward
+    std::vector<glm::dvec2> outline; // outline of its lit part, as Region::outline()
     double near_m = 0.0;             // depths of receivers, as LightSpace::depth_ws measures them
     double far_m = 0.0;
 

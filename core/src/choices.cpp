@@ -156,7 +156,7 @@ constexpr std::array kLvsmFormats{MapFormat::rgba16, MapFormat::rgba16f, MapForm
 constexpr std::array kEsmFormats{MapFormat::r32f, MapFormat::r16f};
 // Two channels: the positive warp alone.
 constexpr std::array kEvsmFormats{MapFormat::rgba32f, MapFormat::rgba16f, MapFormat::rg32f, MapFormat::rg16f};
-constexpr std::array kNoFormats{MapFormat::d32f}; // of a filter without maps; nothing is stored so
+constexpr std::array kNoFormats{MapFormat::d32f}; // for a filter without maps, which stores nothing
 constexpr std::array kMsmFormats{MapFormat::rgba16, MapFormat::rgba32f};
 constexpr std::array kFilters{
     FilterTraits{Filter::hard, kDepthFormats, true, true, false, false, true},
@@ -174,7 +174,7 @@ constexpr std::array kFilters{
     FilterTraits{Filter::smoothies, kRayFormats, true, false, false, false, true},
 };
 
-/// What a user reads who asks a filter for a format that it cannot use.
+/// The message to a user who asks a filter for a format that it cannot use.
 constexpr std::string_view formatReason(Filter filter)
 {
     switch (filter) {
@@ -356,7 +356,7 @@ std::optional<std::string_view> refusal(const Technique& technique)
             return std::nullopt;
         }
     }
-    // What no light can have is told by a rule that is not about the light, where there is one.
+    // Where no light can have the combination, a rule that is not about the light gives the reason, if there is one.
     constexpr std::array kLights{LightType::directional, LightType::spot, LightType::point};
     for (const ChoiceRule& rule : choiceRules()) {
         if (std::ranges::all_of(kLights, [&](LightType light) { return rule.applies(light, technique); })) {

@@ -9,10 +9,10 @@
 namespace gnomon {
 namespace {
 
-/// What hangs far above all receivers is clamped onto a near plane this far before them: so many times their own range
-/// or so many texels, whichever is more. A bias is some texels of depth, and more on a slope; a caster clamped closer
+/// Casters far above all receivers are clamped onto a near plane this far before them: a multiple of their own range or
+/// a number of texels, whichever is more. A bias is some texels of depth, and more on a slope; a caster clamped closer
 /// than that would cast no shadow on the receivers next to the plane, and none at all on a flat floor, whose own range
-/// is nothing.
+/// is 0.
 constexpr double kClearanceRanges = 3.0;
 constexpr double kClearanceTexels = 64.0;
 /// Share of the range that is added at its ends.

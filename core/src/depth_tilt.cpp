@@ -19,7 +19,8 @@ namespace {
 // Receivers that the light grazes at less than 10 degrees are not followed: tan 80 degrees.
 constexpr double kSteepest = 5.67;
 constexpr double kSteps = 128.0; // the share is a multiple of one over this
-constexpr double kRidge = 1e-3;  // of the spread across: what holds the regression where all lies in a line
+constexpr double kRidge = 1e-3;  // share of the spread across, which keeps the regression stable where all points lie
+                                 // in a line
 
 /// Weighted sums over sheets, of their coordinates (right, up, forward).
 struct Sums {

@@ -7,7 +7,7 @@
 namespace gnomon {
 namespace {
 
-/// What a frame counts for beside the one after it: 0.5 after eight.
+/// The weight of a frame relative to the one after it: 0.5 after eight frames.
 constexpr double kKept = 0.9170040432046712; // 2^(-1/8)
 constexpr double kMostTimes = 4.0;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a planner was told last, so that a frame in which nothing moved costs next to nothing.
+// The last input of a planner, so that a frame in which nothing moved costs next to nothing.
 #pragma once
 
 #include <gnomon/frame.h>

@@ -86,7 +86,7 @@ MapFrame FrustumPlanner::frameOfWarp(const FrustumInput& input, const Lie& lie, 
     }
     // Unwarped, the rectangle of the receivers' boxes may be the smaller one.
     const LightRect rect = warp.warped() ? rectOf(warp, region_.outline()) : region_.rect();
-    // Who finds out how fine a frustum has to be asks for what is seen of it alone.
+    // A caller that wants to know how fine a frustum has to be needs only its seen part.
     const bool asks = input.recipe.grows() && !(input.slice.texel > 0.0);
     return (asks ? moveFreely : input.recipe.motion->move)(rect, {lie.space, input.frame.camera, input.camera,
                                                                   input.slice, lie.least_size, input.map_size,
@@ -271,8 +271,9 @@ Warp FrustumPlanner::warpOf(const FrustumInput& input, const Lie& lie) const
     return none;
 }
 
-/// That of the recipe's fit, as far as what is probably seen gains by it. Of parallel light: amid the rays of a lamp
-/// the points tell too little, and warps would come and go. PSM is the camera's own space and has no weaker one.
+/// The warp of the recipe's fit, kept as far as probably seen points gain by it. For parallel light alone: amid the
+/// rays of a lamp the points tell too little, and warps would come and go. PSM is the camera's own space and has no
+/// weaker form.
 Warp FrustumPlanner::drawnWarp(const FrustumInput& input, const Lie& lie)
 {
     const Warp warp = warpOf(input, lie);

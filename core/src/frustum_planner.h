@@ -22,7 +22,7 @@ struct FrustumInput {
     const Light& light;                       // shining from where the map is drawn
     const Slice& slice;
     std::uint32_t map_size = 0; // texels on a side
-    double strength = 1.0;      // of the warp, with fit auto
+    double strength = 1.0;      // strength of the warp, with fit auto
     glm::dvec2 grid_move_texels{0.0};
     Aabb scene_ws{};                      // with fit scene: what its map is made around
     std::span<const WorldLayer> layers{}; // with layers of the world
@@ -38,7 +38,7 @@ struct Prediction {
     double size = 0.0;        // longer side of what the map has to show, as LightRect has it
 };
 
-/// Of the shadow by which a map's error is told, pixels of the picture.
+/// Size of the shadow that a map's error is judged by, pixels of the picture.
 inline constexpr double kFeature_px = 300.0;
 
 [[nodiscard]] bool isFinite(const View& view);
@@ -79,9 +79,9 @@ private:
                                           const Warp& warp, const MapFrame& frame);
     void outlinePlaces(const FrustumInput& input, const Lie& lie);
     [[nodiscard]] Outcome widenForLight(const FrustumInput& input, const RegionInput& around, Lie& lie);
-    /// Of a half space around a light (Slice::paraboloid), hemisphere_plan.cpp: what is seen of it and who casts there.
+    /// The seen part of a half space around a light (Slice::paraboloid) and the casters there: hemisphere_plan.cpp.
     struct SeenHalf {
-        glm::dvec3 low_ws{0.0}; // box around that and the light
+        glm::dvec3 low_ws{0.0}; // box around the seen part and the light
         glm::dvec3 high_ws{0.0};
         double near_m = 0.0; // distances from the light: of the nearest caster,
         double far_m = 0.0;  // and of the farthest place that is seen

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A paraboloid's view: a half space around a point light, whole. Only how far it reaches, and who is drawn, depends on
-// what is seen of it.
+// A paraboloid's view: the whole half space around a point light. Only its reach and its casters depend on the seen
+// part.
 #include "frustum_planner.h"
 
 #include <glm/common.hpp>
@@ -21,7 +21,7 @@ double distanceTo(const Aabb& box, const glm::dvec3& p)
     return glm::distance(glm::clamp(p, glm::dvec3(box.min), glm::dvec3(box.max)), p);
 }
 
-/// Of six sides; `by_m` outside the box.
+/// Adds six planes, `by_m` outside the box.
 void addBox(const glm::dvec3& low, const glm::dvec3& high, double by_m, std::vector<Plane>& out)
 {
     for (int axis = 0; axis < 3; ++axis) {

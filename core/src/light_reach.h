@@ -16,7 +16,7 @@ namespace gnomon {
 /// The same, but no more than a map can spare that shows `size`: its texels grow by half at most.
 [[nodiscard]] double affordableReach(double reach, const glm::dvec2& size);
 
-/// Of a map that holds still: what no receiver in the scene exceeds, in steps.
+/// The reach for a map that holds still: a bound for every receiver in the scene, in steps.
 [[nodiscard]] double steadyReach(const Light& light, const LightSpace& space, const Aabb& scene_ws);
 
 /// Filter pcss takes no wider lights: the few texels of its discs miss what is close to the receiver, and no mean depth

@@ -40,7 +40,7 @@ double arrivesAt(const Light& light, const LightExtent& extent, const glm::dvec3
 
 void LightShares::find(std::span<const Light> lights, const CameraView& camera, std::span<const SightPoint> points)
 {
-    constexpr double kLeastInView = 0.05; // of one of some hundred points
+    constexpr double kLeastInView = 0.05; // share of one of some hundred points
     all_.assign(points.size(), 0.0);
     shares_.assign(lights.size(), 0.0);
     for (const bool sums : {true, false}) {

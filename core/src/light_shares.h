@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the picture owes to each of its lights.
+// The share of each light in the picture.
 #pragma once
 
 #include "auto/sight.h"
@@ -27,7 +27,8 @@ private:
     std::vector<double> shares_;
 };
 
-/// What arrives from a light at a place, unshadowed, on a surface that faces it: lux, or as Light::brightness has it.
+/// The light that arrives at a place, unshadowed, on a surface that faces the light: lux, or the unit of
+/// Light::brightness.
 [[nodiscard]] double arrivesAt(const Light& light, const LightExtent& extent, const glm::dvec3& p_ws);
 
 } // namespace gnomon

@@ -24,7 +24,7 @@ double farthestOf(const Light& light, const glm::dvec3& along_ws, const Aabb& bo
     return glm::length(glm::max(glm::abs(low - light.position_ws), glm::abs(high - light.position_ws)));
 }
 
-/// Of a box in a map, in its clip space; everything where the box is partly behind a lamp.
+/// The bounds of a box in a map, in clip space; everything where the box is partly behind a lamp.
 struct MapBox {
     glm::dvec2 low{-1.0};
     glm::dvec2 high{1.0};
@@ -58,7 +58,7 @@ struct FlatPlace {
 
 std::optional<FlatPlace> flatPlaceOf(const Aabb& box)
 {
-    constexpr double kFlat = 1e-6; // of the box's size and of its distance from the origin
+    constexpr double kFlat = 1e-6; // share of the box's size and of its distance from the origin
     const glm::dvec3 low(box.min);
     const glm::dvec3 size = glm::dvec3(box.max) - low;
     for (int axis = 0; axis < 3; ++axis) {
@@ -140,7 +140,7 @@ void shareInPlanes(const Light& light, const ObjectSet& objects, const IdHandout
                    std::span<std::uint16_t> ids)
 {
     std::uint32_t plane = kNoIndex;
-    std::uint16_t id = 0; // of those in the plane
+    std::uint16_t id = 0; // id of the objects in the plane
     eachInPlane(
         objects, scratch,
         [&](std::uint32_t object) {
@@ -162,7 +162,7 @@ struct IdRange {
     std::uint32_t first = 0;
     std::uint32_t count = 1;
 
-    /// Of `ids`, after the last of which the first comes again.
+    /// Do both have an id in common? There are `ids` of them, and the first follows the last.
     [[nodiscard]] bool meets(const IdRange& other, std::uint32_t ids) const
     {
         const std::uint32_t after = (other.first + ids - first) % ids;
@@ -176,7 +176,7 @@ std::uint32_t piecesOf(const Plan& plan, std::uint32_t light, std::uint32_t obje
     return options.ids().of == IdOf::face ? std::max<std::uint32_t>(plan.object_pieces[object], 1) : 1;
 }
 
-/// What overlaps in one map.
+/// Counts the pairs that overlap in one map.
 void countPairs(const Plan& plan, const View& view, std::span<const std::uint16_t> ids, IdCollisions& counted)
 {
     struct Drawn {

@@ -58,7 +58,7 @@ struct ObjectSet::Impl {
     // A bit for each index: somewhere, and somewhere with that flag.
     std::array<std::vector<std::uint64_t>, 3> bits;
     std::vector<std::uint32_t> free_indices; // a heap, the smallest on top: indices stay dense
-    std::array<Octree, 2> trees;             // what stands still, what moves: the first one stays as it is
+    std::array<Octree, 2> trees;             // still objects, moving objects: the first one stays as it is
     std::uint64_t version = 0;
     std::uint64_t identity = nextIdentity();
     Aabb bounds;

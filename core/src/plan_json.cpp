@@ -110,7 +110,7 @@ void writeSteps(JsonWriter& json, const SunSteps& steps)
     json.closeLine('}');
 }
 
-// Of lights that leave nothing to the planner there is nothing to say.
+// Lights that leave nothing to the planner have no entry.
 void writeChoice(JsonWriter& json, const AutoChoice& choice)
 {
     if (!choice.made) {
@@ -126,7 +126,7 @@ void writeChoice(JsonWriter& json, const AutoChoice& choice)
     json.closeLine('}');
 }
 
-// Of lights whose maps hold no ids there is nothing to say.
+// Lights whose maps hold no ids have no entry.
 void writeIds(JsonWriter& json, const Plan& plan, std::uint32_t light)
 {
     if (plan.lights[light].first_object_id == kNoIndex) {

@@ -22,7 +22,7 @@ std::string_view lasting(const std::string& sentence)
     return *sentences.insert(sentence).first;
 }
 
-/// Of each of `count` maps that share the texels of one.
+/// The side of each of `count` maps that share the texels of one.
 std::uint32_t sideOfShared(std::uint32_t side, std::uint32_t count)
 {
     std::uint32_t level = 0;
@@ -89,7 +89,7 @@ MapWish Recipe::wishOf(const Light& light, std::uint32_t index, const PartitionT
     }
     wish.positions = pairs(light) ? 2 : 1;
     wish.shares_texels = resolved.paired_maps();
-    // What the GPU fits is another map in each frame. A midpoint is of all casters at once.
+    // A map that the GPU fits changes in each frame. A midpoint map needs all casters at once.
     wish.keeps_still =
         !divided.fits_on_gpu && options.faces != CasterFaces::midpoint &&
         (options.keep_still == KeepStill::always || (options.keep_still == KeepStill::automatic && steps(light)));

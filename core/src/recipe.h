@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one of a planner's options comes to: the functions of its choices, and what they mean for a light.
+// One of a planner's options, resolved: the functions of its choices, and their meaning for a light.
 #pragma once
 
 #include "fit/fit.h"
@@ -15,10 +15,10 @@ struct Recipe {
     ShadowOptions asked;
     Resolution resolution; // without a value check() refuses every light
     std::string_view refusal_reason;
-    ResolvedOptions resolved; // the default ones where what was asked for is refused
-    ShadowOptions options;    // of `resolved`
+    ResolvedOptions resolved; // the default ones where the given ones are refused
+    ShadowOptions options;    // the options of `resolved`
     const PartitionTraits* partition = nullptr;
-    FitFunction fit = nullptr; // of fit auto: null
+    FitFunction fit = nullptr; // null for fit auto
     const MotionTraits* motion = nullptr;
     const FilterTraits* filter = nullptr;
 
@@ -27,7 +27,7 @@ struct Recipe {
     /// ok, or why this light has no map whatever it shines on.
     [[nodiscard]] Outcome check(const Light& light) const;
 
-    // Of lights that check() says ok to:
+    // For lights that check() accepts:
 
     /// The light is a sun that moves in steps.
     [[nodiscard]] bool steps(const Light& light) const;
@@ -47,7 +47,7 @@ struct Recipe {
     [[nodiscard]] bool drawsReceivers() const { return filter->filterable || filter->ids; }
     /// Filter volumes has none: its lights want none, and have casters instead (plan/views_of_volumes.cpp).
     [[nodiscard]] bool hasMaps() const { return resolved.hasMaps(); }
-    /// What a frame draws is bounded.
+    /// A frame's drawing is bounded.
     [[nodiscard]] bool takesTurns() const { return boundsDrawing(options); }
     /// A light's cascades take turns each by itself.
     [[nodiscard]] bool turnsByCascade() const { return gnomon::turnsByCascade(options); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What matters to one frustum of a light: the body that the camera sees and the light reaches, and who can cast on it.
+// The region of one frustum of a light: the body that the camera sees and the light reaches, and the casters that can
+// shade it.
 #pragma once
 
 #include "light_space.h"
@@ -28,7 +29,7 @@ struct RegionInput {
 
 /// From where casters can throw a shadow into a map.
 struct CasterReach {
-    LightRect rect;     // of the map
+    LightRect rect;     // the map's rectangle
     double pad = 0.0;   // how far outside what is seen texels count, because a filter's kernel looks that far
     double far_m = 0.0; // depth behind which nothing casts
     bool whole = false; // all of the rectangle counts, not only what is seen
@@ -46,7 +47,7 @@ public:
 
     /// Valid after gatherReceivers() said ok, until the next one.
     [[nodiscard]] const ConvexBody& body() const { return body_; }
-    /// What is seen and lit, seen from the light: convex, counter-clockwise, one corner at least, within rect().
+    /// The seen and lit body, seen from the light: convex, counter-clockwise, one corner at least, within rect().
     [[nodiscard]] std::span<const glm::dvec2> outline() const { return outline_; }
     [[nodiscard]] const LightRect& rect() const { return rect_; }
     /// Depths as LightSpace::depth_ws measures them, from its origin.

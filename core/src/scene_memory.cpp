@@ -18,7 +18,7 @@ namespace {
 constexpr float kRoom = 1.0F / 16.0F;
 constexpr int kBins = 1024;
 constexpr int kSteps = 64;
-constexpr double kTrimmed = 0.02; // of a layer's objects, at each end
+constexpr double kTrimmed = 0.02; // share of a layer's objects, at each end
 constexpr double kLeastDepth_m = 0.01;
 
 struct HeightRange {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a planner finds once in a scene and keeps: the box that fit=scene is made around, and layers of the world.
+// Findings about a scene that a planner makes once and keeps: the box that fit=scene is made around, and layers of the
+// world.
 #pragma once
 
 #include <gnomon/frame.h>

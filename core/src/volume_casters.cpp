@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who can cast on what is seen, where no map is drawn of them.
+// The casters that can shade what is seen, for filters that draw no maps of them.
 #include "frustum_planner.h"
 
 #include "light_reach.h"

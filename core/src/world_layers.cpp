@@ -43,7 +43,7 @@ void placeLayers(std::span<const WorldLayer> layers, LayerAxis axis, const glm::
             span = {static_cast<double>(i) / count, static_cast<double>(i + 1) / count};
             continue;
         }
-        const bool from_top = by_height && row.y < 0.0; // what is high is near to the light
+        const bool from_top = by_height && row.y < 0.0; // high layers are near to the light
         const WorldLayer& layer = layers[from_top ? layers.size() - 1 - i : i];
         const double low = depthAt(layer.low_m);
         const double high = depthAt(layer.high_m);

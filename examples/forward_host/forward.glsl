@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the forward host's shaders share.
+// Declarations that the forward host's shaders share.
 layout(push_constant) uniform Draw
 {
     mat4 clip_from; // casters: world space; shading: relative to the eye

@@ -18,7 +18,7 @@
 namespace gnomon::pack {
 namespace {
 
-// What a light's importance is made from.
+// The inputs of a light's importance.
 struct Source {
     glm::dvec3 position_ws{0.0};
     double brightness = 0.0;

@@ -37,8 +37,8 @@ float stepBelowOne(MapFormat format)
     }
 }
 
-/// Hides what the format's rounding does to M2 - M1^2, see gnomon/shared/moments.h: as a least variance of d' (lvsm:
-/// of a layer's own metric), for evsm as shares of what each warp stores.
+/// Hides the effect of the format's rounding on M2 - M1^2, see gnomon/shared/moments.h: as a least variance of d'
+/// (lvsm: of a layer's own metric), for evsm as shares of each warp's stored value.
 void hideRounding(const ResolvedOptions& options, shared::MomentRule& rule)
 {
     const float step = stepBelowOne(options.format());
@@ -119,7 +119,7 @@ float snapOfBits(std::uint32_t bits)
 
 } // namespace
 
-/// Of hard and pcf the metric alone counts.
+/// Only the metric counts for hard and pcf.
 shared::MomentRule readingRuleOf(const ResolvedOptions& options)
 {
     shared::MomentRule rule = options.filterable() ? momentRuleOf(options) : shared::MomentRule{};
@@ -215,8 +215,9 @@ shared::MomentRule momentRuleOf(const ResolvedOptions& options)
     rule.exponent = exponent(options.filter() == Filter::esm ? o.esm_exponent : o.evsm_positive, false);
     rule.exponent_negative = exponent(o.evsm_negative, true);
     // The least that keeps slanted planes lit whose moments were rounded at the first write and by the blur, alone and
-    // below a little of an occluder, found by trying (tests/shaders/msm_test.cpp). Of 32 bits a tenth of that would do,
-    // but the bounds' own arithmetic, in single precision, is then off by up to a fifth: at 3e-6 it stays
+    // below a little of an occluder, found by experiment (tests/shaders/msm_test.cpp). With 32 bits a tenth of that
+    // would be enough, but the bounds' own arithmetic, in single precision, is then off by up to a fifth: at 3e-6 it
+    // stays
     // within a step of the mask in 99.9 % of distributions (tests/shaders/single_precision_float_test.cpp).
     rule.moment_bias = o.moment_bias.value_or(options.format() == MapFormat::rgba16 ? 4e-5F : 3e-6F);
     if (options.filter() == Filter::msm) {

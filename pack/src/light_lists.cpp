@@ -61,7 +61,7 @@ public:
     {
         const auto pixel = [](double ndc, std::uint32_t size, double more) {
             const double at = (0.5 * ndc + 0.5) * size + more;
-            // Of a camera that is no number, nothing.
+            // Nothing for a camera with NaN.
             return at > 0.0 ? static_cast<std::uint32_t>(std::min(at, static_cast<double>(size))) : 0U;
         };
         if (low_.x > high_.x) {
@@ -76,8 +76,8 @@ private:
     glm::dvec2 high_{-1e300};
 };
 
-/// What lies before the eye's plane, w >= `least`, of the hull: the hull of its points there and of where lines between
-/// any two of its points pierce the plane. A projection keeps hulls there.
+/// The bounds of the hull's part before the eye's plane, w >= `least`: the hull of its points there and of the places
+/// where lines between any two of its points pierce the plane. A projection keeps hulls there.
 Bounds projectedBounds(const Hull& hull, const glm::dmat4& clip_from_world)
 {
     std::array<glm::dvec4, 8> clip{};

@@ -8,7 +8,7 @@ namespace gnomon::pack {
 
 /// Views of a light that count, as ranges of Plan::views.
 struct ShownViews {
-    std::uint32_t first = 0; // of the only position that is seen, or the earlier one of both
+    std::uint32_t first = 0; // first view of the only position that is seen, or of the earlier one of both
     std::uint32_t count = 0;
     std::uint32_t later_first = 0;
     std::uint32_t later_count = 0; // 0: one position alone is seen

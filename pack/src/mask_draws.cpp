@@ -43,8 +43,8 @@ std::uint32_t pixels(double share, std::uint32_t width, double (*round)(double))
     return share > 0.0 ? static_cast<std::uint32_t>(round(std::min(share, 1.0) * width)) : 0;
 }
 
-// Of a band: to the left of `begin` the later position alone counts, from `end` on the earlier one. Rounded outwards,
-// so that a pixel on an edge is in the band.
+// The pixels of a band: to the left of `begin` only the later position counts, from `end` on only the earlier one.
+// Rounded outwards, so that a pixel on an edge is in the band.
 struct BandPixels {
     std::uint32_t begin;
     std::uint32_t end;
@@ -132,7 +132,7 @@ ToldApart toldApart(std::span<const View> views)
     return slices ? ToldApart::slices : ToldApart::tests;
 }
 
-// Of a plan's only light with views, a sun in steps: where each of its positions that is seen has one view, these are
+// For a sun in steps that is a plan's only light with views: where each seen position has one view, these views are
 // known beforehand.
 void knowPositions(const Plan& plan, MaskDraw& draw)
 {
@@ -194,7 +194,7 @@ bool mayHaveBands(const Plan& plan)
            std::ranges::any_of(plan.lights, [](const LightPlan& light) { return light.steps.band > 0.0; });
 }
 
-// Where the lights of one layer reach, by mask channel. Of a light that is not known: everywhere.
+// Where the lights of one layer reach, by mask channel. An unknown light reaches everywhere.
 LayerReach reachOf(const Plan& plan, std::uint32_t layer, glm::uvec2 size_px)
 {
     LayerReach reach;
@@ -276,7 +276,7 @@ void listMaskDraws(const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& 
         const LayerReach reach = reachOf(plan, layer, size_px);
         for (const Strip& strip : strips) {
             std::uint32_t first_light = layer * shared::kLightsPerLayer;
-            if (strips.count > 1) { // of this strip alone
+            if (strips.count > 1) { // lights of this strip alone
                 first_light = next;
                 next += shared::kLightsPerLayer;
             }

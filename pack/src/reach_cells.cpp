@@ -70,7 +70,7 @@ ReachCells::ReachCells(const LayerReach& reach, const ScreenBounds& within)
         reach, within.y0, within.y1, [](const ScreenBounds& b) { return b.y0; },
         [](const ScreenBounds& b) { return b.y1; }, y_room);
     for (std::size_t row = 0; row + 1 < y.size(); ++row) {
-        ReachCell run; // of one row, widened while the lights are the same
+        ReachCell run; // cells of one row, widened while the lights are the same
         for (std::size_t column = 0; column + 1 < x.size(); ++column) {
             ReachCell cell{{x[column], y[row], x[column + 1], y[row + 1]}, 0};
             for (const LayerReach::Reach& light : reach) {

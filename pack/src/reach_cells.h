@@ -19,11 +19,12 @@ namespace gnomon::pack {
 class LayerReach {
 public:
     struct Reach {
-        std::uint32_t channels = 0; // of the light: one bit, of a coloured one all
+        std::uint32_t channels = 0; // the light's: one bit, or all for a coloured one
         ScreenBounds pixels;
     };
 
-    /// A light of these channels. Of two with one channel, which only a plan by hand has, what both reach counts.
+    /// Adds a light with these channels. Two lights with one channel, which only a hand-made plan has, count where both
+    /// reach.
     void add(std::uint32_t channels, const ScreenBounds& pixels);
     [[nodiscard]] const Reach* begin() const { return lights_.data(); }
     [[nodiscard]] const Reach* end() const { return lights_.data() + count_; }
@@ -35,7 +36,7 @@ private:
 
 struct ReachCell {
     ScreenBounds pixels;
-    std::uint32_t channels = 0; // of lights that may reach all of it, never none
+    std::uint32_t channels = 0; // channels of lights that may reach all of it, never 0
 };
 
 /// The parts of a rectangle that lights reach, top down and from left to right. They do not overlap.

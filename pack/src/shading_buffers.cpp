@@ -201,7 +201,7 @@ void fillConstants(const Plan& plan, std::uint32_t index, glm::uvec2 screen_px, 
     const ResolvedOptions& options = (*plan.options)[index];
     const double begin_m = options.fadeBegin_m();
     const double fade_m = options.fadeEnd_m() - begin_m;
-    constexpr double kLeastFade = 1e-5; // of the distance
+    constexpr double kLeastFade = 1e-5; // share of the distance
     screen.fade = glm::vec4(0.0F, 0.0F, camera.reversed_z ? 0.0F : 1.0F, 0.0F);
     if (options.fadeEnd_m() > 0.0) {
         screen.fade.x = static_cast<float>(begin_m);

@@ -13,8 +13,8 @@
 namespace gnomon::pack {
 namespace {
 
-/// Of the cube around a lamp's reach: its corners have the least and the most depth, as depth is monotone along the
-/// view. What reaches behind the eye begins at the near plane.
+/// Bounds depth by the cube around a lamp's reach: its corners have the least and the most depth, as depth is monotone
+/// along the view. A cube that reaches behind the eye begins at the near plane.
 void boundDepths(const Light& light, const Aabb& scene_ws, const Camera& camera, VolumeDraw& draw)
 {
     if (light.type == LightType::directional || scene_ws.empty()) {
@@ -32,7 +32,7 @@ void boundDepths(const Light& light, const Aabb& scene_ws, const Camera& camera,
         least = std::min(least, depth);
         most = std::max(most, depth);
     }
-    constexpr double kRounding = 1e-6; // of a float's share
+    constexpr double kRounding = 1e-6; // relative error of a float
     draw.least_depth = static_cast<float>(least * (1.0 - kRounding));
     draw.most_depth = static_cast<float>(std::min(most * (1.0 + kRounding), 1.0));
 }

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Turns drawn depths into what a filterable map stores, blurred along x, and notes which blocks a caster reaches so.
-// What is not blurred yet is never written: a thread walks along a row of a block and has it in registers.
+// Turns drawn depths into a filterable map's values, blurred along x, and notes which blocks a caster reaches so.
+// Values that are not blurred yet are never written: a thread walks along a row of a block and has them in registers.
 #extension GL_GOOGLE_include_directive : require
 #define GN_FROM_DEPTHS
 #include "gnomon/lib/blur_window.glsl"

@@ -10,7 +10,7 @@ layout(local_size_x = kBoundsGroup, local_size_y = kBoundsGroup) in;
 shared uint found[kBoundKeys * kMostCascades];
 shared vec2 slices[kMostCascades]; // begin, end
 
-// Of what a thread sees in a cascade: minus x, minus y, x, y, each the greatest; and with room around.
+// Bounds of a thread's pixels in a cascade: minus x, minus y, x, y, each the greatest; and with room around.
 struct Bounds {
     vec4 ends;
     vec4 roomy;

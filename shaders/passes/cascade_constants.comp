@@ -19,7 +19,7 @@ layout(set = 0, binding = 1, std430) buffer Views
 vec4 placedRow(vec4 row, vec4 w, float first, float size, float scale, float centre)
 {
     float middle = first + 0.5 * size;
-    // What is close to zero in the cascade's middle is scaled; then it is moved to the middle of the tile.
+    // The part that is close to zero in the cascade's middle is scaled, then moved to the middle of the tile.
     return (row - w * (middle + 0.5 * size * centre)) * scale + w * middle;
 }
 

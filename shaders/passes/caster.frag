@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// What a caster writes to a map. WRITE_COLOUR: into a colour image; WRITE_DEPTH: into the depth image, where the
-// rasteriser's depth is not the metric; PER_SAMPLE: at each sample; MASKED: with holes where its texture's alpha is low;
-// BEHIND: only what lies behind the first surface.
+// The value that a caster writes to a map. WRITE_COLOUR: into a colour image; WRITE_DEPTH: into the depth image, where
+// the rasteriser's depth is not the metric; PER_SAMPLE: at each sample; MASKED: with holes where its texture's alpha is
+// low; BEHIND: only fragments behind the first surface.
 #extension GL_GOOGLE_include_directive : require
 #include "gnomon/lib/caster.glsl"
 
@@ -37,7 +37,7 @@ layout(set = 2, binding = 0) uniform sampler2D first_surface;
 #endif
 #ifdef MASKED
 layout(location = 1) AT in vec2 uv;
-layout(location = 5) AT in vec4 colour; // of vertices
+layout(location = 5) AT in vec4 colour; // the vertices' colour
 layout(set = 0, binding = 0) uniform sampler2D base_colour;
 layout(push_constant) uniform Material
 {

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// What a blended caster writes to a map of tints: the colour that it multiplies the light behind it by, and its depth, of
-// which the nearest stays.
+// The value that a blended caster writes to a map of tints: the factor of the light behind it, by colour, and its
+// depth, of which the nearest stays.
 #extension GL_GOOGLE_include_directive : require
 #include "gnomon/shared/blended_tint.h"
 #include "gnomon/lib/caster.glsl"

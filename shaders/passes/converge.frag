@@ -59,7 +59,7 @@ vec4 countsOf(uint packed)
     return vec4(unpackCount(c.x), unpackCount(c.y), unpackCount(c.z), unpackCount(c.w));
 }
 
-// What the frames before made of a point.
+// The result of earlier frames for a point.
 struct Known {
     vec4 mean;
     vec4 counts;
@@ -82,7 +82,7 @@ Seen seenAt(ivec3 at)
     return Seen(vec4(x.x, y.x, z.x, w.x), vec4(x.y, y.y, z.y, w.y));
 }
 
-// Of the pass, read once: lavapipe 22.3 loads a uniform again for each lane and each use.
+// Uniforms of the pass, read once: lavapipe 22.3 loads a uniform again for each lane and each use.
 vec2 size_px;
 bool has_normals;
 
@@ -90,7 +90,7 @@ struct Gathered {
     vec4 sum;
     vec4 counts;
     float shares;
-    vec4 least; // of the pixels' means
+    vec4 least; // least of the pixels' means
     vec4 most;
 };
 
@@ -131,7 +131,7 @@ vec4 cubicMean(ivec3 first, vec2 part, Gathered found)
     return clamp(sum, found.least, found.most);
 }
 
-// Of p, relative to the eye: a read between those pixels that showed the same surface.
+// The result of earlier frames at p, relative to the eye: a read between those pixels that showed the same surface.
 Known knownOf(vec3 p, vec3 normal)
 {
     Known none = Known(vec4(1.0), vec4(0.0));
@@ -141,7 +141,8 @@ Known knownOf(vec3 p, vec3 normal)
         return none;
     }
     vec2 texel = vec2(dot(layers[layer].before_x, point), dot(layers[layer].before_y, point)) / w - 0.5;
-    texel = clamp(texel, vec2(-2.0), size_px + 1.0); // what is far off the screen need not be representable as an integer
+    texel = clamp(texel, vec2(-2.0), size_px + 1.0); // a point far off the screen need not be representable as an
+                                                     // integer
     vec2 cell = floor(texel);
     vec2 part = texel - cell;
     ivec3 first = ivec3(ivec2(cell), layer);

@@ -55,7 +55,7 @@ void countPair(ivec2 texel, float own, float other)
         float c = depthAt(awayFrom(texel, i));
         int weight = gapWeight(a, b, c);
         if (weight > 0) {
-            // What a near end between the two leaves falls from all to nothing.
+            // The share that a near end between the two leaves falls from all to nothing.
             int last = binOf(mix(a, b, (float(i) + 0.5) / float(kBehind)), kGapBins);
             atomicAdd(lost[last * kGapColumns + binOf(c, kGapBins) + 1], uint(weight));
         }

@@ -20,10 +20,10 @@ layout(push_constant, std430) uniform Push
     GpuPlacePush push;
 };
 
-shared float gains[kGapBins];            // what a split there saves
+shared float gains[kGapBins];            // loss that a split there saves
 shared int splits[kDepthLayers + 1];     // the bins where layers begin, and kGapBins
 shared float begins_of[kDepthLayers + 1]; // the same as depths
-shared float uniform_loss;               // what layers of one width lose
+shared float uniform_loss;               // loss of layers of one width
 shared bool is_uniform;                  // are those taken?
 
 // From single losses to sums: up the rows, as a near end leaves all that a later one leaves; then along them.

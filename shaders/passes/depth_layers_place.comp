@@ -27,9 +27,9 @@ layout(push_constant, std430) uniform Push
     GpuPlacePush push;
 };
 
-shared uvec2 before[kDepthBins + 1]; // of all bins before this one: x: depths, y: times the number of their bin
+shared uvec2 before[kDepthBins + 1]; // sums over all bins before this one: x: depths, y: times the number of their bin
 shared uvec2 sums[kThreads];
-const int kHeld = 2; // of means: where they were
+const int kHeld = 2; // index into `means`: where they were
 shared float means[3][kDepthLayers];
 shared uint moved;
 

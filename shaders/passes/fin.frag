@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// What a fin says of a texel (gnomon/shared/smoothie_fins.h), packed as smoothies are. The depth test keeps that fin which takes
-// most light from the surface that the map shows there.
+// A fin's smoothie for a texel (gnomon/shared/smoothie_fins.h), packed. The depth test keeps the fin that takes most
+// light from the surface that the map shows there.
 #extension GL_GOOGLE_include_directive : require
 #include "gnomon/lib/fin_pass.glsl"
 #include "gnomon/shared/smoothie_fins.h"

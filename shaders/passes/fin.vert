@@ -46,7 +46,7 @@ vec3 clipOf(vec3 p, float is_point)
     return clip.xyw;
 }
 
-// Of the triangle's corner that is not on the edge.
+// The side of the triangle's corner that is not on the edge.
 float sideOf(uint triangle, uvec2 edge, vec3 from, vec3 from_clip, vec3 along_clip)
 {
     uint third = corners[3u * triangle];

@@ -29,8 +29,9 @@ layout(constant_id = 15) const bool kColoured = false; // all four channels are 
 const uint kTileChannels = 0;
 const bool kTakesAway = false;
 #else
-layout(constant_id = 16) const uint kTileChannels = 0; // of a compact mask: 4 or 8; 0: the mask is not compact
-layout(constant_id = 17) const bool kTakesAway = false; // of a compact mask, several draws: this one's is taken from 1
+layout(constant_id = 16) const uint kTileChannels = 0; // channels of a compact mask: 4 or 8; 0: the mask is not compact
+layout(constant_id = 17) const bool kTakesAway = false; // for a compact mask with several draws: this one's is taken
+                                                        // from 1
 #endif
 #if defined(GNOMON_ONE_VIEW) || !GNOMON_COMPILES_KERNELS
 #define GNOMON_PARABOLOID false
@@ -111,7 +112,7 @@ struct Left {
     uint end;
 };
 
-// Of a compact mask, those of the pixel's tile that have channels in this layer.
+// The lights to draw. For a compact mask, those of the pixel's tile that have channels in this layer.
 Left lightsOf(ivec2 pixel)
 {
     Left left = Left(GNOMON_FEW_VIEWS > 0 ? 1u : channels, 0u, 0u);
@@ -177,7 +178,7 @@ void main()
         centre = vec2(pixel) + 0.5;
     }
     float depth = GNOMON_SCREEN_TEXEL(depths, pixel).r;
-    // What is not drawn stays lit. Nor is the shader compiled twice by lavapipe, where no pixel is known to be drawn.
+    // Undrawn pixels stay lit. Nor does lavapipe compile the shader twice, where no pixel is known to be drawn.
     if (depth == numbers.screen.fade.z) {
         discard;
     }

@@ -31,7 +31,7 @@ vec4 sourceTexel(ivec2 texel, vec2 size)
                        : texelFetch(source, ivec3(texel, int(layer)), 0);
 }
 
-// What has the id 0 receives nothing.
+// A surface with the id 0 receives no shadow.
 bool receives(ivec2 pixel)
 {
     return !kHasIds || GNOMON_SCREEN_TEXEL(object_ids, pixel).r != 0u;

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// What smoothies_row.comp has made, made wide along y: each texel gets the edge that cuts off most light from the
-// surface that it holds.
+// Widens the result of smoothies_row.comp along y: each texel gets the edge that cuts off most light from the surface
+// that it holds.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "gnomon/lib/smoothies_pass.glsl"

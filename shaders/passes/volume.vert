@@ -12,7 +12,7 @@ layout(push_constant) uniform Push
     vec4 row_x; // eye-relative from object
     vec4 row_y;
     vec4 row_z;
-    vec4 place; // of the light
+    vec4 place; // the light's
 };
 layout(set = 0, binding = 0, std430) restrict readonly buffer Elements
 {

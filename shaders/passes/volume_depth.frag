@@ -17,7 +17,7 @@ layout(set = 0, binding = 3) uniform sampler2D smooth_surfaces;
 #define GNOMON_SURFACE_SCREEN constants.screen
 #include "gnomon/lib/screen_surface.glsl"
 
-// Of a surface seen edge-on, no farther than so many lifts along the line of sight.
+// Least cosine for a surface seen edge-on. It limits the shift along the line of sight to 1 / 0.2 lifts.
 const float kLeastCosine = 0.2;
 
 // Along a pixel's line of sight the homogeneous point's xyz is the same at every depth, and w is affine in it: the point

@@ -32,7 +32,7 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float depth = texelFetch(depths, pixel, 0).r;
     if (depth == constants.screen.fade.z) {
-        discard; // what is not drawn stays lit
+        discard; // undrawn pixels stay lit
     }
     if (kHasIds && texelFetch(object_ids, pixel, 0).r == 0) {
         discard;

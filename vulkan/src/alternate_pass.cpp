@@ -23,7 +23,7 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
-// Of surfaces the distance from the eye, metres; 0: there is none.
+// `surfaces` holds the distance from the eye, metres; 0: there is none.
 constexpr MaskHistory::Kind kHistory{.surfaces = VK_FORMAT_R32_SFLOAT};
 
 // Push constants of alternate.frag.

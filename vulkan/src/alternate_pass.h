@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps of a stepping sun by turns: what this frame's maps of one position say is joined with what the frame before made
-// of the other one's, moved to where its surfaces are now. Where the frame before did not see the surface, this frame
-// counts alone; so does it in the first frame, and where the frame before had another pair of positions.
+// Maps of a stepping sun by turns: the visibility by this frame's maps of one position is joined with the last frame's
+// for the other position, moved to where its surfaces are now. This frame counts alone where the last frame did not see
+// the surface, in the first frame, and where the last frame had another pair of positions.
 #pragma once
 
 #include "descriptors.h"
@@ -11,7 +11,7 @@
 
 namespace gnomon::vulkan {
 
-/// What the pass reads besides its own images.
+/// The inputs of the pass besides its own images.
 struct AlternateInputs {
     VkImageView depth = VK_NULL_HANDLE;
     VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
@@ -38,7 +38,7 @@ private:
     struct LightHistory {
         bool known = false;
         MaskPlace place;
-        glm::dvec3 direction_ws{0.0}; // of the maps that it was seen by
+        glm::dvec3 direction_ws{0.0}; // direction of the maps that it was seen by
     };
     void writeSet(VkDescriptorSet set, const AlternateInputs& inputs);
     [[nodiscard]] Pipeline makePipeline(VkFormat mask_format);

@@ -8,7 +8,7 @@
 
 namespace gnomon::vulkan {
 
-/// Of all levels of an image.
+/// A barrier of all levels of an image.
 struct ImageBarrier {
     VkImage image = VK_NULL_HANDLE;
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
@@ -44,7 +44,7 @@ public:
     void record();
 
 private:
-    static constexpr std::uint32_t kMost = 32; // of each kind
+    static constexpr std::uint32_t kMost = 32; // most barriers of each kind
 
     const Device& device_;
     VkCommandBuffer commands_;

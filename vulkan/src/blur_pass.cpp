@@ -59,7 +59,7 @@ void BlurPass::makeSets(const MomentImages& images)
 
 namespace {
 
-/// Of blocks. What of the view before was read, flags and the scratch image, was read by both kinds of shaders.
+/// Clears the flags of blocks. Both kinds of shaders read the last view's flags and scratch image.
 void clearFlags(const Device& device, VkCommandBuffer commands, VkBuffer blocks)
 {
     MemoryBarrier barrier;
@@ -170,7 +170,7 @@ FilterCost BlurPass::cost(const shared::BlurCounts& counts) const
     cost.taps = depths_read + texels_read;
     if (path_ == BlurPath::fragment) {
         texels_read = blurred * (2 * radius_ + 1);
-        const std::uint64_t filtered = 1 + 2 * ((radius_ + 1) / 2); // of two texels each
+        const std::uint64_t filtered = 1 + 2 * ((radius_ + 1) / 2); // reads of two texels each
         cost.taps = depths_read + (logarithms_ ? texels_read : blurred * filtered);
     }
     cost.bytes_moved = depths_read * kDepthBytes + (texels_read + 2 * all) * texel_bytes_;

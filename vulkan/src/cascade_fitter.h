@@ -37,8 +37,8 @@ public:
     /// Completes views in a storage buffer: those that say in slice.w for which view of the plan, counted from 1.
     /// Afterwards they are visible to FRAGMENT_SHADER and COMPUTE_SHADER as storage buffer.
     void recordViews(VkCommandBuffer commands, std::uint32_t slot, Reader reader, const Views& views);
-    /// Of every view of the last plan that was recorded with this slot, once the GPU has finished. Empty without such
-    /// views.
+    /// The fit of every view of the last plan that was recorded with this slot, once the GPU has finished. Empty
+    /// without such views.
     [[nodiscard]] std::vector<FittedView> read(std::uint32_t slot) const;
 
 private:

@@ -134,9 +134,9 @@ void CasterDrawer::Impl::reserve(const Plan& plan, Slot& begun)
         std::uint32_t in_pass = 0;
         std::size_t listed_in_pass = 0;
         for (; i < end; ++i) {
-            // What stands still and what moves may be drawn apart.
+            // Still and moving casters may be drawn apart.
             const std::uint32_t for_tints =
-                tintsWith(optionsOf(plan, plan.views[i])) ? 2 : 0; // what blocks, and what is blended
+                tintsWith(optionsOf(plan, plan.views[i])) ? 2 : 0; // blockers, and blended casters
             const std::uint32_t passes = (isDrawnTwice(optionsOf(plan, plan.views[i])) ? 2 : 1) + for_tints;
             for (const CasterShare share : {CasterShare::still, CasterShare::moving}) {
                 const auto list = castersOf(plan, plan.views[i], share);
@@ -239,7 +239,7 @@ void CasterDrawer::Impl::ensureBatches(CasterPipelineKey key)
     }
 }
 
-/// Of a midpoint's map there is a second one, and beside any there may be a map of tints.
+/// A midpoint's map has a second pass, and beside any map there may be a map of tints.
 void CasterDrawer::Impl::ensureAllPasses(CasterPipelineKey key, const ResolvedOptions& resolved)
 {
     ensureBatches(key);
@@ -281,7 +281,7 @@ void CasterDrawer::warmUp(const ResolvedOptions& options, bool perspective)
     }
 }
 
-/// What passes of several views that the GPU has placed read their places by.
+/// The buffers from which passes of several views read the places that the GPU has found.
 void CasterDrawer::Impl::makePlaces(const Plan& plan)
 {
     const bool was_together = together;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a drawer of casters keeps, and its steps: those of a frame are in caster_drawer.cpp, those of a pass in
+// The state of a drawer of casters, and its steps: those of a frame are in caster_drawer.cpp, those of a pass in
 // caster_draws.cpp.
 #pragma once
 
@@ -47,7 +47,7 @@ struct CasterDrawer::Impl {
     void ensureTints(CasterPipelineKey key);
     void ensureBatches(CasterPipelineKey key);
     void ensureAllPasses(CasterPipelineKey key, const ResolvedOptions& resolved);
-    /// What of `key` says how a batch is drawn.
+    /// Sets the part of `key` that says how a batch is drawn.
     void setBatch(CasterPipelineKey& key, const CasterBatch& batch) const;
     [[nodiscard]] VkCullModeFlags cullOf(const CasterBatch& batch, const ClassicFormats& formats) const;
     void makePlaces(const Plan& plan);
@@ -67,7 +67,7 @@ struct CasterDrawer::Impl {
     std::vector<CasterBatch> batches;
     std::vector<CasterMaterial> materials;
     std::vector<Slot> slots;
-    std::vector<std::uint32_t> handles; // of the instances of one pass; or of several views places in `listed`
+    std::vector<std::uint32_t> handles; // handles of the instances of one pass; for several views places in `listed`
     std::vector<std::uint32_t> listed;  // casters of the views of one pass, one list after the other
     std::vector<float> biases_m;        // by object index
     bool tints = false;                 // some batch is blended

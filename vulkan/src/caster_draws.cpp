@@ -160,7 +160,7 @@ void CasterDrawer::Impl::checkPass(const MapPass& pass) const
     }
 }
 
-/// What beginFrame() made room for is enough for every pass of its plan once.
+/// beginFrame() made enough room for every pass of its plan once.
 void CasterDrawer::Impl::checkRoom(const MapPass& pass, std::uint32_t instances) const
 {
     const VkDeviceSize bytes = instances * VkDeviceSize{instanceBytes(!pass.view->projection.orthographic,
@@ -198,7 +198,7 @@ std::uint32_t CasterDrawer::draw(const MapPass& pass)
     key.classic = pass.classic.formats;
     key.perspective = !view.projection.orthographic;
     key.clamp = view.projection.clamp_near;
-    // What blocks light before blended casters is drawn to no texels that two maps share.
+    // Blockers before blended casters are not drawn to texels that two maps share.
     const bool whole = pass.formats.blended || pass.formats.colour == VK_FORMAT_UNDEFINED;
     key.part = whole ? TexelPart::whole : view.place.part;
     key.placed = pass.placement != VK_NULL_HANDLE;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the instances of casters bring to caster.vert: rows that take an object's own points to a map, and of a
-// pass of several views the layer that the map is.
+// The instance data of casters for caster.vert: rows that take an object's own points to a map, and in a pass of
+// several views the map's layer.
 #pragma once
 
 #include <gnomon/plan.h>
@@ -13,15 +13,15 @@
 
 namespace gnomon::vulkan {
 
-/// Bytes: the rows, and of several views one more vec4, whose first four bytes are the layer. Of maps of ids, which
-/// never are of several, two more: the row of the depth beside the id, and the id.
+/// Bytes: the rows, and for several views one more vec4, whose first four bytes are the layer. For maps of ids, which
+/// never have several views, two more: the row of the depth beside the id, and the id.
 [[nodiscard]] constexpr std::uint32_t instanceBytes(bool perspective, bool layered, bool ids = false)
 {
     return (pack::casterRowCount(!perspective) + (layered ? 1U : 0U) + (ids ? 2U : 0U)) *
            static_cast<std::uint32_t>(sizeof(glm::vec4));
 }
 
-/// Of the objects, by index.
+/// The places of objects, by index.
 struct CasterPlaces {
     std::span<const Rows3x4> world_from_object;
     std::span<const float> biases_m; // beyond its end: 0
@@ -35,11 +35,12 @@ struct CasterPlaces {
 /// For each object of `list`.
 void writeInstances(const View& view, std::span<const std::uint32_t> list, const CasterPlaces& casters, glm::vec4* out);
 
-/// Of a pass of one view whose map holds ids.
+/// Writes the instances of a pass of one view whose map holds ids.
 void writeIdInstances(const MapPass& pass, std::span<const std::uint32_t> list, const CasterPlaces& casters,
                       glm::vec4* out);
 
-/// Of a pass of several views: `places` are those of casters in all their lists, one list after the other.
+/// Writes the instances of a pass of several views: `places` are those of casters in all their lists, one list after
+/// the other.
 void writeLayeredInstances(const MapPass& pass, std::span<const std::uint32_t> places, const CasterPlaces& casters,
                            glm::vec4* out);
 

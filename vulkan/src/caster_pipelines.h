@@ -10,7 +10,7 @@
 
 namespace gnomon::vulkan {
 
-/// What distinguishes them.
+/// The properties that distinguish pipelines.
 struct CasterPipelineKey {
     MapPassFormats formats;
     ClassicFormats classic;
@@ -31,8 +31,8 @@ struct CasterPipelineKey {
 struct CasterMaterial {
     glm::vec4 uv_u{1.0F, 0.0F, 0.0F, 0.0F};
     glm::vec4 uv_v{0.0F, 1.0F, 0.0F, 0.0F};
-    float cutoff = 0.5F;         // of blended ones: 1 where they are stained
-    std::int32_t first_view = 0; // of several that the GPU has placed; pushed apart from the rest
+    float cutoff = 0.5F;         // for blended ones: 1 where they are stained
+    std::int32_t first_view = 0; // first of several views that the GPU has placed; pushed apart from the rest
     glm::vec2 unused{0.0F};
     glm::vec4 tint{1.0F}; // caster_tint.frag
     std::array<glm::vec4, 2> clip_planes{kNoClipPlane, kNoClipPlane};

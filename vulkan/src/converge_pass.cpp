@@ -27,11 +27,12 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
-// Half floats: eight bits would lose what one of many frames adds. Of surfaces what converge.frag packs.
+// Half floats: eight bits would lose the part that one of many frames adds. `surfaces` holds the values that
+// converge.frag packs.
 constexpr MaskHistory::Kind kHistory{.surfaces = VK_FORMAT_R32G32_UINT, .makes_visibility = true, .precise = true};
 
-// As how many frames those before count at most, at rest. A half float's step at 1 is 1/2048: of a mean of more frames
-// it would lose what one of them adds. In motion converge.frag has its own bound.
+// The most frames that earlier ones count for, at rest. A half float's step at 1 is 1/2048, which would lose one
+// frame's part in a mean of more frames. In motion converge.frag has its own bound.
 constexpr float kMostAtRest = 63.0F;
 
 // Specialisation constants of converge.frag.

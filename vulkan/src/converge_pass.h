@@ -12,7 +12,7 @@
 
 namespace gnomon::vulkan {
 
-/// What the pass reads besides its own images.
+/// The inputs of the pass besides its own images.
 struct ConvergeInputs {
     VkImageView depth = VK_NULL_HANDLE;
     VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
@@ -28,7 +28,7 @@ public:
     void warmUp(VkFormat mask_format);
     /// Makes images like the mask if those that are there are not; then nothing of the frame before is known.
     void prepare(const ImageInfo& mask, std::size_t lights);
-    /// Of target(), by the mask's: floats, which have room for what gnomon/shared/converge.h packs.
+    /// The format of target(), by the mask's: floats, which have room for the packing of gnomon/shared/converge.h.
     [[nodiscard]] static VkFormat targetFormat(VkFormat mask_format);
     /// Over how many frames in a row, up to this one, neither the camera nor a light nor an object has moved.
     [[nodiscard]] std::uint32_t stood(const Plan& plan) const;
@@ -39,7 +39,7 @@ public:
                 const Image& mask);
 
 private:
-    /// Of a light of the frame before.
+    /// A light of the last frame.
     struct LightBefore {
         bool known = false;
         Light light;
@@ -73,7 +73,7 @@ private:
     std::vector<Slot> slots_;
     MaskHistory history_;
     Image target_;
-    // Of the frame before.
+    // The last frame's data.
     std::vector<LightBefore> lights_;
     std::uint64_t planner_ = 0; // 0: there is none
     std::uint64_t number_ = 0;

@@ -140,7 +140,7 @@ void DepthBlocks::dispatch(VkCommandBuffer commands, const Pass& pass, const VkR
     const auto groups = [&](std::int32_t begin, std::uint32_t size) {
         return divideUp(static_cast<std::uint32_t>(begin) + size, side) - first(begin);
     };
-    // What lies beyond the maps' end is as what lies there last.
+    // Texels beyond the maps' end repeat the last ones.
     const auto last = [&](std::uint32_t texels) {
         return static_cast<std::int32_t>(divideUp(texels, 1U << pass.first_level)) - 1;
     };

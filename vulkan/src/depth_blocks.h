@@ -18,12 +18,12 @@ public:
 
     // While commands are recorded, the maps being readable by shaders:
 
-    /// Of all layers and texels.
+    /// Records the blocks of all layers and texels.
     void recordAll(VkCommandBuffer commands);
     /// To be called before and after any number of record().
     void begin(VkCommandBuffer commands);
     void end(VkCommandBuffer commands);
-    /// Of the blocks of one layer that texels of `area` lie in.
+    /// Records the blocks of one layer that texels of `area` lie in.
     void record(VkCommandBuffer commands, const VkRect2D& area, std::uint32_t layer);
 
     /// Level L of the blocks is mip level L - 1. In GENERAL once recorded.

@@ -63,7 +63,7 @@ void DescriptorSets::write(VkDescriptorSet set, std::span<const Write> writes) c
         updates[i].dstBinding = writes[i].binding;
         updates[i].descriptorCount = 1;
         updates[i].descriptorType = types_[writes[i].binding];
-        updates[i].pImageInfo = &writes[i].image; // of the two only the type's own is read
+        updates[i].pImageInfo = &writes[i].image; // only the one for the type is read
         updates[i].pBufferInfo = &writes[i].buffer;
     }
     device_->vk.UpdateDescriptorSets(device_->handle(), static_cast<std::uint32_t>(writes.size()), updates.data(), 0,

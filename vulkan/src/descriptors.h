@@ -53,7 +53,7 @@ private:
     DescriptorPool pool_;
 };
 
-/// Of pipelines with one set. `push_bytes` of push constants for the same stages; 0: none.
+/// The layout of pipelines with one set and `push_bytes` of push constants for the same stages; 0: none.
 [[nodiscard]] PipelineLayout makePipelineLayout(Device& device, VkDescriptorSetLayout set, VkShaderStageFlags stages,
                                                 std::uint32_t push_bytes);
 

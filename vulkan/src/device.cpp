@@ -111,7 +111,7 @@ VkFormatFeatureFlags Device::features(VkFormat format) const
     return properties.optimalTilingFeatures;
 }
 
-/// What is for the GPU alone may lie in the host's memory where the device's is full: slower, and there.
+/// Memory for the GPU alone may lie in the host's memory where the device's is full. It is slower, but available.
 std::vector<std::uint32_t> Device::memoryTypesFor(const MemoryRequest& request) const
 {
     // Others (protected, lazily allocated, uncached by AMD's extension) are for uses that ours are not.
@@ -162,7 +162,7 @@ MemoryBlock Device::allocate(const MemoryRequest& request)
     MemoryBlock block;
     const VkMemoryRequirements& needs = request.needs;
     const std::string tried = std::string("allocate memory for ") + request.purpose;
-    account_.open(request.purpose); // what may throw comes before there is anything to lose
+    account_.open(request.purpose); // calls that may throw come before there is anything to lose
     if (view_.memory.allocate != nullptr) {
         check(view_.memory.allocate(view_.memory.user, request, &block), tried.c_str());
         account_.add(request.purpose, needs.size);

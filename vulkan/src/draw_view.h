@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every pass that draws a view's casters does.
+// Shared steps of all passes that draw a view's casters.
 #pragma once
 
 #include "device.h"
@@ -22,15 +22,15 @@ void beginViewLabel(const Device& device, VkCommandBuffer commands, const Plan& 
 /// Which casters of a view.
 enum class CasterShare : std::uint8_t { all, still, moving };
 [[nodiscard]] std::span<const std::uint32_t> castersOf(const Plan& plan, const View& view, CasterShare share);
-/// Of a view, but for the casters.
+/// The pass of a view, without its casters.
 [[nodiscard]] MapPass passOf(VkCommandBuffer commands, const Plan& plan, std::uint32_t view,
                              VkColorComponentFlags colour_mask);
 /// Calls the host's callback for them. Rendering has begun.
 void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, CasterShare share,
               VkColorComponentFlags colour_mask, const DrawCasters& draw);
-/// What of the map's tile is drawn again: all of it, or what ViewContents::dirty says of a map that is restored.
+/// The part of the map's tile that is drawn again: all of it, or ViewContents::dirty for a map that is restored.
 [[nodiscard]] VkRect2D redrawnArea(const View& view, bool all);
-/// What is at most so many texels away from `area`, in the tile.
+/// `area` widened by x and y texels on each side, within the tile.
 [[nodiscard]] VkRect2D widened(const VkRect2D& area, const Tile& tile, std::int32_t x, std::int32_t y);
 /// Are the casters of a map drawn in two passes, one for each of their first two surfaces?
 [[nodiscard]] bool isDrawnTwice(const ResolvedOptions& options);

@@ -57,7 +57,7 @@ constexpr Feature kFeatures[] = {
     {"shaderClipDistance", &FeatureUses::clip_planes, GNOMON_CORE(shaderClipDistance)},
     {"depthBounds", &FeatureUses::depth_bounds, GNOMON_CORE(depthBounds)},
     {"pipelineStatisticsQuery", &FeatureUses::statistics, GNOMON_CORE(pipelineStatisticsQuery)},
-    // What every device of Vulkan 1.3 has.
+    // Features that every device of Vulkan 1.3 has.
     {"hostQueryReset", kAlways, k12, offsetof(VkPhysicalDeviceVulkan12Features, hostQueryReset),
      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES,
      offsetof(VkPhysicalDeviceHostQueryResetFeatures, hostQueryReset)},
@@ -105,7 +105,7 @@ VkBool32& bitIn(Chain& chain, const Feature& feature)
     return bitOf(findIn(&chain.core, feature.version), feature.bit);
 }
 
-/// What is not there stays false.
+/// A missing feature stays false.
 void query(const DeviceView& view, Chain& chain)
 {
     requireInstance(view);

@@ -16,7 +16,7 @@
 namespace gnomon::vulkan {
 namespace {
 
-// What options allow and what shaders have room for.
+// Shaders have room for everything that options allow.
 static_assert(kMaxBlurRadius == shared::kMostBlurRadius && kMaxBlurRadius < shared::kBlockTexels);
 static_assert(kMaxDepthLayers == shared::kDepthLayers && kMaxDepthLayers == 2 * shared::kMostImageLayers);
 

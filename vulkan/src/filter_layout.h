@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the passes that make a map filterable share: one layout for all of their shaders (gnomon/lib/filter_pass.glsl),
-// compute and fragment, the pool of their descriptor sets, and how their pipelines are made.
+// Shared by the passes that make a map filterable: one layout for all of their shaders (gnomon/lib/filter_pass.glsl),
+// compute and fragment, the pool of their descriptor sets, and the creation of their pipelines.
 #pragma once
 
 #include "descriptors.h"
@@ -18,15 +18,15 @@ struct FilterConstants {
     float exponent_negative = 0.0F;
     float moment_bias = 0.0F;
     std::int32_t radius = 0;
-    std::int32_t channels = 4; // of the format
+    std::int32_t channels = 4; // channels of the format
 };
 [[nodiscard]] FilterConstants filterConstants(const ResolvedOptions& options);
 
-/// What one set names. lavapipe 22.3 crashes on descriptors that were never written, so all are given always.
+/// The bindings of one set. lavapipe 22.3 crashes on descriptors that were never written, so all are always given.
 struct FilterBindings {
     VkImageView source = VK_NULL_HANDLE;
     bool source_is_depth = false;        // then in SHADER_READ_ONLY_OPTIMAL, else in GENERAL
-    VkImageView target = VK_NULL_HANDLE; // of a storage image in GENERAL
+    VkImageView target = VK_NULL_HANDLE; // view of a storage image in GENERAL
     VkBuffer blocks = VK_NULL_HANDLE;
     VkBuffer depth_layers = VK_NULL_HANDLE;
     VkBuffer kernel = VK_NULL_HANDLE;

@@ -10,7 +10,8 @@
 namespace gnomon::vulkan {
 
 inline constexpr VkFormat kFinFormat = VK_FORMAT_R32_UINT;
-inline constexpr VkFormat kFinOrderFormat = VK_FORMAT_D32_SFLOAT; // of what decides which fin a texel keeps
+inline constexpr VkFormat kFinOrderFormat = VK_FORMAT_D32_SFLOAT; // format of the order that decides which fin a texel
+                                                                  // keeps
 
 class FinMaps {
 public:

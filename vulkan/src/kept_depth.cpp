@@ -103,7 +103,7 @@ void KeptDepth::draw(VkCommandBuffer commands, const Plan& plan, std::uint32_t i
     ImageBarrier barrier = barrierOf(image_, view.contents.kept_layer);
     barrier.old_layout = layout;
     barrier.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-    barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT; // what was there may have been copied just now
+    barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT; // the old contents may have been copied just now
     barrier.target_stages = kDepthStages;
     barrier.target_access = kDepthAccess;
     recordBarrier(device_, commands, barrier);
@@ -124,7 +124,7 @@ void KeptDepth::draw(VkCommandBuffer commands, const Plan& plan, std::uint32_t i
 void KeptDepth::restore(VkCommandBuffer commands, const View& view, const Image& working) const
 {
     ImageBarrier barrier = barrierOf(working, 0);
-    barrier.new_layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL; // what the view before left is not needed
+    barrier.new_layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL; // the last view's contents are not needed
     barrier.source_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
     barrier.target_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.target_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;

@@ -24,10 +24,10 @@ public:
     void letGo() { outgrown_.letGo(); }
     /// To be called before anything else is recorded with an image that has grown.
     void copyOutgrown(VkCommandBuffer commands);
-    /// What stands still into the view's layer.
+    /// Draws the still casters into the view's layer.
     void draw(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, const DrawCasters& draw);
-    /// From there to the first texels of the one layer of `working`, all of the tile; then casters can be drawn over
-    /// it. Whatever was there, compute shaders alone have read it.
+    /// Copies all of the tile from there to the first texels of the single layer of `working`; then casters can be
+    /// drawn over it. Only compute shaders have read the old contents of `working`.
     void restore(VkCommandBuffer commands, const View& view, const Image& working) const;
 
 private:

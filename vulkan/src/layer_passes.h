@@ -13,7 +13,8 @@ class LayerPasses {
 public:
     LayerPasses(Device& device, const ResolvedOptions& options, VkPipelineCache cache);
 
-    /// What every job reads from and writes to, from here on. They are new: a handle may be one that was used before.
+    /// Sets the images that every job reads from and writes to from now on. They are new, even where a handle was used
+    /// before.
     void setImages(VkImageView depth, VkBuffer layers);
     struct Job {
         shared::GpuHistogramPush histogram;

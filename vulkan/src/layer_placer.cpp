@@ -27,8 +27,8 @@ float nearOverFar(const View& view, const DepthMetric& metric)
     return view.projection.parallel ? 1.0F : static_cast<float>(metric.near_m / metric.far_m);
 }
 
-/// What takes depths of one metric to those of a view's, in the middle of what the view holds: the two may measure
-/// along directions that are not quite the same. x: factor, y: summand.
+/// Takes depths of one metric to those of a view's, exactly in the middle of the view's map: both may measure along
+/// slightly different directions. x: factor, y: summand.
 glm::dvec2 carryOver(const DepthMetric& from, const View& view)
 {
     const glm::dvec4& row = view.projection.metric.metric_ws;

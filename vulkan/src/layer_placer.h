@@ -31,11 +31,11 @@ public:
     void record(VkCommandBuffer commands, const Plan& plan, std::uint32_t view);
     [[nodiscard]] VkBuffer buffer() const; // std430: GpuDepthLayers by slot
     [[nodiscard]] VkDeviceSize bytes() const;
-    /// Of a slot, once the GPU has finished. Empty for other filters.
+    /// The layers of a slot, once the GPU has finished. Empty for other filters.
     [[nodiscard]] std::vector<pack::DepthLayer> read(std::uint32_t slot) const;
 
 private:
-    // What the layers of one map were placed for; nothing placed yet without a metric.
+    // The map that layers were placed for; nothing is placed yet without a metric.
     struct Slot {
         MapId map;
         std::uint32_t light = kNoIndex; // tells maps without a name apart
@@ -53,7 +53,7 @@ private:
     bool of_world_ = false;             // lvsm with layers of the world
     std::optional<LayerPasses> passes_; // lvsm with layers that follow what is drawn
     HostBuffer buffer_;
-    HostBuffer outgrown_; // what was placed is there until it has been copied
+    HostBuffer outgrown_; // holds the placed layers until they have been copied
     bool copied_ = false; // it has been, and is retired by the next prepare(): recording allocates nothing
     std::vector<Slot> slots_;
 };

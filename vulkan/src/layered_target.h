@@ -20,9 +20,9 @@ public:
     /// To be called before anything else is recorded with an image that has grown.
     void copyOutgrown(VkCommandBuffer commands);
 
-    /// After reads by shaders. What the layer holds stays.
+    /// After reads by shaders. The layer keeps its contents.
     void toAttachment(BarrierBatch& barriers, std::uint32_t layer);
-    /// What was drawn is visible to shaders.
+    /// Makes drawing visible to shaders.
     void toReadable(BarrierBatch& barriers, std::uint32_t layer);
     /// All layers that are not; those that were never drawn hold anything.
     void makeReadable(BarrierBatch& barriers);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of DepthMaps: the maps of what stands still, kept apart, and what of them is kept.
+// The part of DepthMaps for maps of still casters, which are kept apart.
 #include "draw_view.h"
 #include "map_pass.h"
 
@@ -9,8 +9,8 @@
 
 namespace gnomon::vulkan {
 
-/// What is to be restored has the depths that its own colours say, where these are two maps of 16 bits a texel and the
-/// light is parallel: then the rasteriser's depth is the metric.
+/// Depths can be restored from a map's own colours, where these are two maps of 16 bits a texel and the light is
+/// parallel: then the rasteriser's depth is the metric.
 bool DepthMaps::keepsDepth(const View& view) const
 {
     const bool pairs =
@@ -76,7 +76,7 @@ void DepthMaps::drawKept(const MapJob& job)
 {
     const std::span<const View> views = job.plan.views;
     BarrierBatch before(device_, job.commands);
-    const auto isDrawnFirst = [&](std::uint32_t index) { // of those that share its layer
+    const auto isDrawnFirst = [&](std::uint32_t index) { // among views that share its layer
         return std::none_of(views.begin(), views.begin() + index, [&](const View& other) {
             const auto earlier = static_cast<std::uint32_t>(&other - views.data());
             return job.of(earlier).draw_kept && other.contents.kept_layer == views[index].contents.kept_layer;
@@ -98,7 +98,7 @@ void DepthMaps::drawKept(const MapJob& job)
             drawKept(job, i);
         }
     }
-    // What restores a map names the whole image, with the layers of maps that nobody has needed so far.
+    // The restoring pass binds the whole image, with the layers of maps that nobody has needed so far.
     BarrierBatch after(device_, job.commands);
     kept_depths_.makeReadable(after);
     kept_colours_.makeReadable(after);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the texels of each map hold, by the content numbers of the plans that were recorded, and what there is to draw
-// so that they hold what a plan wants. The one place that knows: the passes do as they are told.
+// Notes the contents of each map's texels, by the content numbers of recorded plans, and finds the drawing that brings
+// them to a plan's contents. Only this class decides: the passes follow it.
 #pragma once
 
 #include <gnomon/plan.h>
@@ -10,21 +10,21 @@
 
 namespace gnomon::vulkan {
 
-/// What there is to do for one view.
+/// The work for one view.
 struct ViewWork {
     bool draw = false;      // the map, or a part of it
-    bool whole = false;     // all of the tile; else what ViewContents::dirty says
-    bool draw_kept = false; // what stands still, into the kept layer, first
+    bool whole = false;     // all of the tile; else ViewContents::dirty
+    bool draw_kept = false; // the still casters, into the kept layer, first
 };
 
 class MapNotes {
 public:
-    /// What is to be drawn for each view of the plan; good until the next call. A view without a MapId is drawn as it
-    /// says by itself: whoever made the plan by hand answers for it.
+    /// The work for each view of the plan; valid until the next call. A view without a MapId is drawn by its own
+    /// `redraw` and `dirty`: the plan was made by hand, and its maker is responsible.
     [[nodiscard]] std::span<const ViewWork> workFor(const Plan& plan);
     /// The last work has been recorded: maps hold what their views make. Allocates nothing.
     void done(const Plan& plan);
-    /// Grows whenever what any map holds may be another than before.
+    /// Grows whenever the contents of any map may have changed.
     [[nodiscard]] std::uint64_t changes() const { return changes_; }
     void change() { ++changes_; }
     /// Room for such a plan, so that neither of the above allocates.
@@ -36,7 +36,7 @@ private:
     // Where a map lies, and what it holds. 0: nothing that is known.
     struct Held {
         ContentNumber content = 0;
-        std::uint32_t options = 0; // of Plan::options: whose images
+        std::uint32_t options = 0; // index into Plan::options, whose images it lies in
         Tile tile;
         TexelPart part = TexelPart::whole;
         bool kept = false; // in the images of what stands still

@@ -26,7 +26,7 @@ bool mayStep(const ResolvedOptions& options)
     return motion != Motion::free && motion != Motion::snap;
 }
 
-/// Of a sun that moves in steps maps are kept unless somebody says otherwise.
+/// Maps of a sun that moves in steps are kept unless the options say otherwise.
 bool mayKeepStill(const ResolvedOptions& options)
 {
     const KeepStill keep = options.asked().keep_still;
@@ -93,7 +93,7 @@ void DepthMaps::warmUp(const ResolvedOptions& options)
     restorer_->ensure(TexelPart::whole, Source::depths);
     if (options.paired_maps()) {
         restorer_->ensure(TexelPart::first, Source::colours);
-        restorer_->ensure(TexelPart::first, Source::depths); // of lamps beside the sun
+        restorer_->ensure(TexelPart::first, Source::depths); // for lamps beside the sun
     }
     if (shares_texels) {
         restorer_->ensure(TexelPart::second, Source::colours);
@@ -139,8 +139,8 @@ const DepthMaps::Layers* DepthMaps::layersFrom(std::uint32_t first) const
     return found != layers_.end() ? &*found : nullptr;
 }
 
-/// What passes of several views draw to: an image view of the layers from wherever one may begin, whichever views there
-/// are to be drawn, and as many layers of depth.
+/// Makes the targets of passes of several views: an image view of the layers from each layer where such a pass may
+/// begin, whichever views are drawn, and as many layers of depth.
 void DepthMaps::prepareTogether(const Plan& plan, std::uint32_t options)
 {
     std::uint32_t most = 1;
@@ -184,7 +184,7 @@ DepthMaps::Target DepthMaps::mapTarget(const View& view, const ViewWork& work) c
     return {layer, depth_.layer(0), view.place.part == TexelPart::whole, false, area, 1};
 }
 
-/// Of `count` views with this tile in consecutive layers.
+/// The target of `count` views with this tile in consecutive layers.
 DepthMaps::Target DepthMaps::targetOf(const Tile& tile, std::uint32_t count) const
 {
     const Layers* const found = layersFrom(tile.layer);

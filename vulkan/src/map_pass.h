@@ -76,13 +76,14 @@ private:
 
     Device& device_;
     const MapStorage& storage_;
-    float clear_; // what a texel of a map in a colour format holds where nothing is drawn, in all its channels
+    float clear_; // value of a texel of a map in a colour format where nothing is drawn, in all channels
     VkPipelineCache cache_;
     LayeredTarget maps_;
-    Image depth_; // of a map in a colour format: decides which fragment wins, then is forgotten; a layer for each view
+    Image depth_; // for maps in a colour format: decides which fragment wins, then is discarded; a layer for each view
     std::vector<Layers> layers_; // views of maps_
     LayeredTarget kept_colours_;
-    LayeredTarget kept_depths_; // of views whose colours do not say it (keepsDepth()); none where there is no such view
+    LayeredTarget kept_depths_; // depths of views whose colours do not hold them (keepsDepth()); none where there is no
+                                // such view
     std::optional<MapRestorer> restorer_;   // made when first needed
     std::optional<MidpointMaps> midpoints_; // likewise
     std::optional<DepthBlocks> blocks_;

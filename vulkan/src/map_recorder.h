@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the renderer knows of the passes that draw maps. Two kinds: DepthMaps (map_pass.h) draws them and is done;
+// The renderer's interface to the passes that draw maps. There are two kinds: DepthMaps (map_pass.h) only draws them;
 // MomentMaps (moment_maps.h) draws depth and makes a filterable map of it.
 #pragma once
 
@@ -10,12 +10,12 @@
 
 namespace gnomon::vulkan {
 
-/// What one recording is given.
+/// The inputs of one recording.
 struct MapJob {
     VkCommandBuffer commands = VK_NULL_HANDLE;
     std::uint32_t slot = 0;
     const Plan& plan;
-    std::uint32_t options = 0;      // of Plan::options: views of others are left alone
+    std::uint32_t options = 0;      // index into Plan::options: views of others are left alone
     std::span<const ViewWork> work; // by view
     const DrawCasters& draw;
     Profiler* profiler = nullptr;
@@ -49,15 +49,15 @@ public:
         bool changed = false; // there are new images or buffers
         bool lost = false;    // and what maps held could not be taken over
     };
-    /// Makes larger images and buffers if the plan does not fit. What they hold is copied at the next record().
-    /// `options`: of Plan::options.
+    /// Makes larger images and buffers if the plan does not fit. Their contents are copied at the next record().
+    /// `options`: index into Plan::options.
     virtual Prepared prepare(const Plan& plan, std::uint32_t options) = 0;
-    /// Does what `job.work` says of each view of the plan.
+    /// Does the work in `job.work` for each view of the plan.
     virtual void record(const MapJob& job) = 0;
     /// Brings layers that were never drawn into the layout that the mask pass reads them in.
     virtual void makeReadable(VkCommandBuffer commands) = 0;
     [[nodiscard]] virtual const Image& maps() const = 0;
-    /// Of the maps, in GENERAL: blocks, smoothies or fins; null for filters that need neither.
+    /// The maps' second image, in GENERAL: blocks, smoothies or fins; null for filters that need none.
     [[nodiscard]] virtual const Image* blocks() const { return nullptr; }
     [[nodiscard]] virtual FilterCost cost(std::uint32_t slot) const = 0;
 };

@@ -14,7 +14,7 @@ class MapRestorer {
 public:
     MapRestorer(Device& device, const MapStorage& storage, VkPipelineCache cache);
 
-    /// What the depths of a kept map are restored from.
+    /// The source that the depths of a kept map are restored from.
     enum class Source : std::uint8_t {
         depths,  // they were kept
         colours, // its colours, which hold two maps a texel: depths as they are stored
@@ -24,10 +24,10 @@ public:
     void setKept(VkImageView depths, VkImageView colours);
     /// Makes the pipelines for maps that have this part of their texels.
     void ensure(TexelPart part, Source source);
-    /// Of what is ensured. Rendering has begun, viewport and scissor are set: puts back what the scissor covers, depths
-    /// and colours.
+    /// Restores depths and colours within the scissor; the pipeline must be ensured. Rendering has begun, viewport and
+    /// scissor are set.
     void restore(VkCommandBuffer commands, TexelPart part, Source source, std::uint32_t layer);
-    /// Likewise: colours are 1 where the map has its part of them. Depths have been cleared.
+    /// Sets the map's part of the colours to 1 within the scissor, in the same state. Depths have been cleared.
     void clear(VkCommandBuffer commands, TexelPart part);
 
 private:

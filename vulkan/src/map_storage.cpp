@@ -98,7 +98,7 @@ void requireAveraging(VkFormatFeatureFlags features, Filter filter, MapFormat fo
                                {VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT, "filter linearly"}};
     for (const Need& need : kNeeds) {
         if ((features & need.feature) == 0) {
-            // Of all formats here, Vulkan asks every device for all three of this one alone.
+            // Vulkan requires all three only for this one of the formats here.
             const bool is_usable = !refusal(filter, MapFormat::rgba16f);
             throw Error(
                 what, std::string("the device cannot ") + need.verb + " maps of format " + std::string(nameOf(format)),

@@ -24,13 +24,13 @@ struct MapStorage {
 
 /// There is one for every format.
 [[nodiscard]] const MapStorage& mapStorage(MapFormat format);
-/// What is written of a colour attachment for one part of its texels; 0 for no attachment. Of a format that holds one
-/// map a texel there is no part but the whole.
+/// The channels of a colour attachment that are written for one part of its texels; 0 for no attachment. A format that
+/// holds one map a texel has only the whole.
 [[nodiscard]] VkColorComponentFlags colourMaskOf(VkFormat colour, TexelPart part);
-/// What a depth of this format may be rounded by, of one that is less than 1.
+/// The largest rounding of a depth below 1 in this format.
 [[nodiscard]] float depthRounding(VkFormat depth);
-/// Throws Error, `what` being what was tried, when images with these features cannot hold the filter's averages: they
-/// are written by compute shaders, drawn to by a blur of fragment shaders, and read between texels.
+/// Throws Error when images with these features cannot hold the filter's averages; `what` is the step that was tried:
+/// they are written by compute shaders, drawn to by a blur of fragment shaders, and read between texels.
 void requireAveraging(VkFormatFeatureFlags features, Filter filter, MapFormat format, const char* what);
 
 } // namespace gnomon::vulkan

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the mask pass does otherwise where the mask is compact.
+// The part of the mask pass that differs for a compact mask.
 #include "mask_pass.h"
 #include "usage.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a screen pass made of the mask in the frame before, and where that frame saw it from: for passes that join
-// frames. Two sets of images take turns. A pass writes visibility and distances of this frame and reads those of the
-// one before.
+// The mask that a screen pass made in the last frame, and the camera of that frame: for passes that join frames. Two
+// sets of images take turns. A pass writes visibility and distances of this frame and reads those of the one before.
 #pragma once
 
 #include "device.h"
@@ -21,7 +20,7 @@ struct Reprojection {
     glm::vec4 eye; // xyz: this frame's eye as seen from that one's, metres; w is free
 };
 
-/// Where in the mask a light is. What the frame before has there is of another light if this one was elsewhere.
+/// A light's place in the mask. The last frame's mask has another light there if this one was elsewhere.
 struct MaskPlace {
     std::uint32_t layer = 0;
     std::uint32_t channels = 0; // maskChannelsOf()
@@ -34,13 +33,13 @@ class MaskHistory {
 public:
     struct Images {
         Image visibility;
-        Image surfaces; // what was seen, so that another frame can tell whether it sees the same
+        Image surfaces; // the seen surfaces, so that another frame can tell whether it sees the same
     };
-    /// What a pass keeps.
+    /// The images that a pass keeps.
     struct Kind {
         VkFormat surfaces = VK_FORMAT_UNDEFINED;
-        bool makes_visibility = false; // the pass itself writes it, else whoever draws the mask
-        bool precise = false;          // visibility in half floats, else as the mask
+        bool makes_visibility = false; // the pass itself writes it, else the pass that draws the mask
+        bool precise = false;          // visibility in half floats, else in the mask's format
     };
 
     MaskHistory(Device& device, const Kind& kind) : device_(device), kind_(kind) {}
@@ -52,20 +51,20 @@ public:
     [[nodiscard]] std::size_t turn() const { return turn_; }
     [[nodiscard]] const Images& now() const { return images_[turn_]; }
     [[nodiscard]] const Images& before() const { return images_[1 - turn_]; }
-    /// Of visibility that is kept for such masks.
+    /// The format of visibility that is kept for such masks.
     [[nodiscard]] static VkFormat visibilityFormat(const Kind& kind, VkFormat mask);
 
-    /// Brings what the pass writes of this frame into COLOR_ATTACHMENT_OPTIMAL, and what the frame before would have
-    /// left, if there was none, into SHADER_READ_ONLY_OPTIMAL.
+    /// Brings this frame's images into COLOR_ATTACHMENT_OPTIMAL. If there was no last frame, brings its images into
+    /// SHADER_READ_ONLY_OPTIMAL.
     void begin(VkCommandBuffer commands);
     /// Makes what the pass wrote readable by fragment shaders, and this frame the one before.
     void end(VkCommandBuffer commands, const Plan& plan);
     /// After begin(), instead of end(): what the pass wrote is of no use, and the frame before stays what it is.
     void drop() { fresh_ = false; }
-    /// From this frame to the one before, in pixels of the mask, as if neither camera were jittered. Of use from the
-    /// second frame on, as what follows.
+    /// From this frame to the last one, in pixels of the mask, as if neither camera were jittered. Valid from the
+    /// second frame on, as is stands().
     [[nodiscard]] Reprojection reprojection(const Plan& plan) const;
-    /// Does the camera, but for its jitter, stand as it did?
+    /// Is the camera, apart from its jitter, where it was?
     [[nodiscard]] bool stands(const Plan& plan) const;
 
 private:
@@ -75,7 +74,7 @@ private:
     Kind kind_;
     std::array<Images, 2> images_;
     std::size_t turn_ = 0;
-    Camera camera_;     // of the frame before
+    Camera camera_;     // the last frame's
     bool fresh_ = true; // there is none
 };
 

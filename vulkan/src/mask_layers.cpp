@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the mask pass records of a layer: its draws at every pixel, or for MaskSize::half in three steps. One pixel of
-// each 2 x 2 is drawn to an image of half the size, that is spread over the mask, and what it leaves is drawn.
+// The mask pass's recording of a layer: its draws at every pixel, or for MaskSize::half three steps. One pixel of each
+// 2 x 2 is drawn to an image of half the size, that is spread over the mask, and the remaining pixels are drawn.
 #include "mask_pass.h"
 
 #include "barriers.h"
@@ -73,7 +73,7 @@ void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const Plan& plan, c
     VkRenderingAttachmentInfo colour{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     colour.imageView = target.layer(layer);
     colour.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    colour.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR; // what no light has drawn is lit
+    colour.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR; // undrawn pixels are lit
     colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     colour.clearValue.color = {{1.0F, 1.0F, 1.0F, 1.0F}};
     VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};

@@ -17,7 +17,7 @@
 namespace gnomon::vulkan {
 namespace {
 
-// Who may read the mask after us, and so who must be done before the next frame writes it.
+// Stages that may read the mask after us, and must be done before the next frame writes it.
 constexpr VkPipelineStageFlags2 kReaders = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
                                            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
                                            VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
@@ -27,7 +27,7 @@ enum Binding : std::uint32_t {
     kMaps,
     kLights,
     kViews,
-    kLayersOrObjects, // of filters by depth, of filters by ids
+    kLayersOrObjects, // for filters by depth, for filters by ids
     kDepth,
     kNormal,
     kObjectId,

@@ -19,13 +19,13 @@
 
 namespace gnomon::vulkan {
 
-/// What reads the sets and the push constants of the pass that draws the mask.
+/// Stages that read the sets and the push constants of the pass that draws the mask.
 inline constexpr VkShaderStageFlags kMaskStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 /// Push constants of mask.frag, of which mask.vert reads the first.
 struct MaskPush {
-    std::uint32_t first_light; // of a compact mask the layer
-    std::uint32_t channels;    // of a compact mask the options
+    std::uint32_t first_light; // for a compact mask the layer
+    std::uint32_t channels;    // for a compact mask the options
 };
 
 /// Throws Error for one that is wrong.
@@ -36,12 +36,12 @@ using MapClasses = std::vector<std::unique_ptr<MapClass>>;
 
 /// ShadowRenderer::placeTints(), of a plan that was prepared.
 void placeTints(const Plan& plan, const MapClasses& maps, std::span<shared::GpuView> views);
-/// Of the mask itself, by maskChannelCount().
+/// The format of the mask itself, by maskChannelCount().
 [[nodiscard]] VkFormat maskFormat(std::uint32_t channels);
-/// Of all layers, whoever has read them. To be drawn to: what they held is not needed.
+/// Prepares all layers to be drawn to, whoever has read them. Their contents are not needed.
 void toAttachment(const Device& device, VkCommandBuffer commands, const Image& image);
 void toReadable(const Device& device, VkCommandBuffer commands, const Image& image);
-/// Does what is drawn go to ConvergePass::target(), and not to another pass before it?
+/// Are lights drawn to ConvergePass::target(), and not to another pass before it?
 [[nodiscard]] bool drawsToConverge(const Plan& plan);
 /// Do frames that converge count by FilterTraits::weighs_frames?
 [[nodiscard]] bool weighsFrames(const ResolvedOptions& options);
@@ -79,12 +79,12 @@ public:
 private:
     struct Slot {
         HostBuffer constants;              // GpuConstants by options, then lights and views
-        HostBuffer tiles;                  // of a compact mask
+        HostBuffer tiles;                  // for a compact mask
         std::uint64_t tiles_of = 0;        // which mask's they are: drawings_
         HostBuffer objects;                // pack::fillObjects(); of plans without ids none
         std::vector<VkDescriptorSet> sets; // by options
     };
-    // Of a slot's buffer.
+    // The room in a slot's buffer.
     struct Room {
         std::uint32_t options = 0;
         std::uint32_t lights = 0;
@@ -118,7 +118,7 @@ private:
     void makeSpread();
     void prepareSpread(const Plan& plan);
     void warmUpSpread(const ResolvedOptions& options, const WarmUp& what);
-    /// Of the image that lights are drawn to, before frames are joined.
+    /// The image that lights are drawn to, before frames are joined.
     [[nodiscard]] ImageInfo drawnInfo(const Plan& plan) const;
     void makeVolumes();
     void prepareVolumes(const Plan& plan);
@@ -151,18 +151,18 @@ private:
     StandIn no_numbers_; // bound where there are no ids of objects, or no blocks
     DescriptorSets sets_;
     PipelineLayout layout_;
-    Sampler nearest_; // of what is read texel by texel
-    Sampler linear_;  // of filterable maps
+    Sampler nearest_; // for images that are read texel by texel
+    Sampler linear_;  // for filterable maps
     MaskPipelines pipelines_;
     std::vector<Slot> slots_;
     Room room_;
-    MaskSource now_;   // of the frame that is being recorded
-    MaskSource drawn_; // what mask_ was drawn from
+    MaskSource now_;   // for the frame that is being recorded
+    MaskSource drawn_; // the source that mask_ was drawn from
     bool drawn_is_known_ = false;
-    std::uint64_t drawings_ = 0;                // of masks
-    std::vector<pack::MapImage> map_images_;    // of the frame that is being recorded, by options
+    std::uint64_t drawings_ = 0;                // number of drawn masks
+    std::vector<pack::MapImage> map_images_;    // for the frame that is being recorded, by options
     std::vector<std::uint8_t> tinted_;          // by options: some view has a map of tints
-    pack::LightLists lists_;                    // of the frame, for a compact mask
+    pack::LightLists lists_;                    // for a compact mask
     pack::CompactMask tiles_;                   // likewise
     std::optional<AlternatePass> alternate_;    // made when a plan first needs it
     std::optional<ConvergePass> converge_;      // likewise
@@ -170,7 +170,7 @@ private:
     std::optional<MaskSpread> spread_;          // likewise
     std::optional<VolumePassRecorder> volumes_; // likewise
     bool counts_volumes_ = false;
-    std::optional<MaskShape> shape_; // of the inputs, as far as it is known
+    std::optional<MaskShape> shape_; // shape of the inputs, as far as it is known
 };
 
 } // namespace gnomon::vulkan

@@ -103,7 +103,7 @@ Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout
     state.layout = layout;
     state.colour_format = key.format;
     state.takes_away = key.constants.takes_away == VK_TRUE;
-    state.keeps_least = key.shares && !state.takes_away; // what a draw has not to do with it writes as 1
+    state.keeps_least = key.shares && !state.takes_away; // a draw writes 1 to channels that are not its own
     const VkPipelineDepthStencilStateCreateInfo where_left = MaskSpread::whereLeft();
     if (key.as == DrawnAs::left) {
         state.depth_format = MaskSpread::kMarkFormat;

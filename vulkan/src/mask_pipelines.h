@@ -15,14 +15,14 @@ namespace gnomon::vulkan {
 struct MaskConstants {
     pack::TechniqueConstants technique; // few_views: pack::MaskDraw::few_views
     VkBool32 has_normals = VK_FALSE;
-    VkBool32 in_software = VK_FALSE; // what is the same for all pixels comes from the vertex shader; see mask.frag
+    VkBool32 in_software = VK_FALSE; // numbers that all pixels share come from the vertex shader; see mask.frag
     VkBool32 has_smooth = VK_FALSE;
     VkBool32 tints = VK_FALSE;       // views of the draw's options have maps of tints
     VkBool32 shows_rays = VK_FALSE;  // ShadowRendererOptions::shows_rays
     VkBool32 confidence = VK_FALSE;  // for the pass that joins frames: FilterTraits::weighs_frames
     VkBool32 coloured = VK_FALSE;    // pack::MaskDraw::coloured
     std::uint32_t tile_channels = 0; // CompactMaskRule::channels
-    VkBool32 takes_away = VK_FALSE;  // of a compact mask, a draw that shares: what lights do not give
+    VkBool32 takes_away = VK_FALSE;  // for a compact mask, a draw that shares: it draws the light that is lost
     VkBool32 paraboloid = VK_FALSE;  // views may be ViewProjection::paraboloid
     VkBool32 has_ids = VK_FALSE;
     VkBool32 slices_alone = VK_FALSE;   // by MaskPipelineKey::told_apart
@@ -34,27 +34,27 @@ struct MaskConstants {
     bool operator==(const MaskConstants&) const = default;
 };
 
-/// What of a draw of the mask is drawn, and where to.
+/// The part of a mask's draw that is drawn, and its target.
 enum class DrawnAs : std::uint8_t {
     whole, // all pixels, to the mask
     half,  // one pixel of each 2 x 2, to MaskSpread::half()
-    left   // to the mask the pixels that MaskSpread left
+    left   // the pixels that MaskSpread left, to the mask
 };
 
 struct MaskPipelineKey {
     pack::FilterModule module = pack::FilterModule::pcf;
     MaskConstants constants;
-    VkFormat format = VK_FORMAT_UNDEFINED; // of the mask
+    VkFormat format = VK_FORMAT_UNDEFINED; // the mask's format
     pack::ToldApart told_apart = pack::ToldApart::tests;
     bool shares = false; // pack::MaskDraw::shares: channels of other draws stay as they are
     DrawnAs as = DrawnAs::whole;
 
     bool operator==(const MaskPipelineKey&) const = default;
 };
-/// Of a draw of such options; format, device and what concerns the draw are left to be filled in.
+/// The key of a draw with these options; format, device and the draw's own members are left to be filled in.
 [[nodiscard]] MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape);
 
-/// Of draws that part the mask so; `key` for DrawnAs::whole.
+/// The key for this part of the mask; `key` is for DrawnAs::whole.
 [[nodiscard]] MaskPipelineKey drawnAs(MaskPipelineKey key, DrawnAs as);
 
 class MaskPipelines {
@@ -76,7 +76,7 @@ private:
     VkPipelineCache cache_;
     bool shows_rays_;
     ShaderModule vertex_;
-    ShaderModule vertex_one_; // of a draw with one view: where the device lets it have that many outputs
+    ShaderModule vertex_one_; // for a draw with one view: where the device allows that many outputs
     std::vector<Made> made_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the mask pass draws from, found before anything is recorded, and held against what the mask was drawn from.
+// The source that the mask pass draws from, found before anything is recorded, and compared with the source of the
+// present mask.
 #include "mask_source.h"
 
 #include "mask_pass.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a mask is drawn from, so that it need not be drawn again from the same.
+// The source that a mask is drawn from, so that it need not be drawn again from the same one.
 #pragma once
 
 #include <gnomon/frame.h>
@@ -23,7 +23,7 @@ namespace gnomon::vulkan {
 struct MaskSource {
     ContentNumber inputs = 0;      // MaskInputs::content. 0: what the pass makes cannot be told from this
     std::uint64_t map_changes = 0; // MapNotes::changes()
-    std::shared_ptr<const std::vector<ResolvedOptions>> options; // what pipelines are made by
+    std::shared_ptr<const std::vector<ResolvedOptions>> options; // the options that pipelines are made by
     MaskShape shape;
     bool pieces = false; // MaskInputs::object_pieces
     // Where shadow volumes are counted what they are planned by; else nothing.

@@ -140,7 +140,7 @@ void MaskSpread::spread(VkCommandBuffer commands, const Image& target, std::uint
                         bool keeps)
 {
     const VkExtent2D full = target.info().extent;
-    ImageBarrier free; // of the layer before, or the frame before
+    ImageBarrier free; // after the last layer, or the last frame
     free.image = marks_.image();
     free.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
     free.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;

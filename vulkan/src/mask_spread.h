@@ -11,7 +11,7 @@
 
 namespace gnomon::vulkan {
 
-/// What the pass reads besides its own image.
+/// The inputs of the pass besides its own image.
 struct SpreadInputs {
     VkImageView depth = VK_NULL_HANDLE;
     VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
@@ -24,7 +24,7 @@ struct SpreadInputs {
 class MaskSpread {
 public:
     static constexpr VkFormat kMarkFormat = VK_FORMAT_D16_UNORM; // any device draws to it
-    /// Of draws of what the pass leaves.
+    /// The state of draws of the pixels that the pass leaves.
     [[nodiscard]] static VkPipelineDepthStencilStateCreateInfo whereLeft();
 
     MaskSpread(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache);
@@ -35,7 +35,7 @@ public:
     void prepare(const ImageInfo& mask);
     /// Are they there?
     [[nodiscard]] bool holds(const ImageInfo& mask) const;
-    /// Of half the size, rounded up, and of the mask's layers. Whoever draws to it clears it to 1.
+    /// The image of half the size, rounded up, with the mask's layers. The pass that draws to it clears it to 1.
     [[nodiscard]] const Image& half() const { return half_; }
 
     /// Before the layers of a frame: `target` was drawn to and will be again, half() may be read.
@@ -46,7 +46,7 @@ public:
 
 private:
     struct Key {
-        VkFormat format = VK_FORMAT_UNDEFINED; // of what is drawn to
+        VkFormat format = VK_FORMAT_UNDEFINED; // format of the target
         bool normals = true;
         bool ids = false;
 
@@ -67,8 +67,8 @@ private:
     std::vector<VkDescriptorSet> slots_;
     std::vector<Made> pipelines_;
     Image half_;
-    Image marks_;                          // of the mask's size, one layer, for one after the other
-    VkDescriptorSet set_ = VK_NULL_HANDLE; // of the frame that is being recorded
+    Image marks_;                          // the mask's size; its single layer serves one after the other
+    VkDescriptorSet set_ = VK_NULL_HANDLE; // for the frame that is being recorded
     bool normals_ = false;                 // likewise
     bool ids_ = false;                     // likewise
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the mask pass makes before frames need it: pipelines, and the passes that join frames.
+// Makes parts of the mask pass before frames need them: pipelines, and the passes that join frames.
 #include "mask_pass.h"
 
 #include <gnomon/pack/frame_passes.h>
@@ -169,7 +169,7 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
     const std::uint32_t few = pack::fewViews(options);
     const Partition partition = options.technique().partition;
     const bool side_by_side = partition == Partition::cube || partition == Partition::paraboloid;
-    // Of a light that alone has maps, be it the only one or beside lights without any.
+    // For a light that alone has maps, whether it is the only one or beside lights without any.
     const auto makeAlone = [&] {
         key.told_apart = ToldApart::tests;
         key.constants.technique.few_views = few;

@@ -72,7 +72,7 @@ void MidpointMaps::cover(VkExtent2D page)
 
 void MidpointMaps::beginSurface(VkCommandBuffer commands, const Image& surface, const Tile& tile) const
 {
-    ImageBarrier barrier = barrierOf(surface); // what the map before left is not needed
+    ImageBarrier barrier = barrierOf(surface); // the last map's contents are not needed
     barrier.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     barrier.source_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
     barrier.target_stages = kDepthStages;

@@ -15,14 +15,14 @@ namespace gnomon::vulkan {
 
 class MidpointMaps {
 public:
-    /// Of a storage that is depth alone.
+    /// Precondition: the storage is depth alone.
     MidpointMaps(Device& device, const MapStorage& storage, VkPipelineCache cache);
 
-    /// Room for the two surfaces of maps on a page of this size. What is too small is retired.
+    /// Makes room for the two surfaces of maps on a page of this size. Images that are too small are retired.
     void cover(VkExtent2D page);
     /// Draws both surfaces of all casters of a view, which the callback sees as two passes.
     void drawSurfaces(const MapJob& job, std::uint32_t view);
-    /// Rendering to the map has begun, viewport and scissor are set: draws what lies midway.
+    /// Rendering to the map has begun, viewport and scissor are set: draws the midpoints.
     void drawMidpoint(VkCommandBuffer commands) const;
 
 private:

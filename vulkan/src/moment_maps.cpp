@@ -108,7 +108,7 @@ bool MomentMaps::growMaps(const MapPages& atlas)
     return lost;
 }
 
-/// What maps are made in, one after the other: of the size of the largest.
+/// Grows the images that maps are made in, one after the other, to the size of the largest.
 void MomentMaps::growWorking(VkExtent2D tile)
 {
     if (images_.depth) {
@@ -329,7 +329,7 @@ void MomentMaps::recordDepth(const MapJob& job, std::uint32_t index)
         beginDepthRendering(device_, commands, tile, images_.depth.layer(0), VK_ATTACHMENT_LOAD_OP_LOAD);
         drawView(commands, plan, index, CasterShare::moving, 0, job.draw);
     } else {
-        barrier.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL; // what the view before left is not needed
+        barrier.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL; // the last view's contents are not needed
         barrier.source_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
         barrier.target_stages = kDepthStages;
         barrier.target_access = kDepthAccess;

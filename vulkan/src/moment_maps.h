@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Filterable maps: casters are drawn as depths, which become what a filter's texels store, as it is (moment_pass.h) or
-// blurred (blur_pass.h), and are averaged into mip levels (mip_pass.h). Of a view with a kept layer the depths of what
-// stands still are drawn into that layer and copied from there; then what moves is drawn over them. All of the tile is
-// copied and filtered, however little of it has changed.
+// Filterable maps: casters are drawn as depths. These become the filter's stored values, unblurred (moment_pass.h) or
+// blurred (blur_pass.h), and are averaged into mip levels (mip_pass.h). For a view with a kept layer the still casters'
+// depths are drawn into that layer and copied from there; then the moving casters are drawn over them. All of the tile
+// is copied and filtered, however little of it has changed.
 #pragma once
 
 #include "blur_pass.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What devices may lack: the one table that says what it is for and what is done without, and what asks for it.
+// Parts that devices may lack: the only table that has the purpose of each, the behaviour without it, and the uses that
+// need it.
 #pragma once
 
 #include "device.h"
@@ -9,7 +10,7 @@ namespace gnomon::vulkan {
 /// Throws Error unless `view` has all that asking takes.
 void requireInstance(const DeviceView& view);
 
-/// Of queues that make timestamps: how many of their bits count; 0: they make none.
+/// How many bits of the queues' timestamps count; 0: they make none.
 [[nodiscard]] std::uint32_t timestampBits(const DeviceView& view);
 
 /// Depth and stencil to count shadow volumes in: the better of the two of which every device has one.

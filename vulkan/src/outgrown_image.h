@@ -8,8 +8,8 @@ namespace gnomon::vulkan {
 
 class OutgrownImage {
 public:
-    /// `layouts`: of each layer, UNDEFINED where nothing was ever drawn. Of two that are given before any copy the
-    /// first one has the texels: the second one was to be copied to itself.
+    /// `layouts`: each layer's, UNDEFINED where nothing was ever drawn. Where two are given before any copy, the first
+    /// one has the texels: the second one was to be copied to itself.
     void take(Device& device, Image&& image, std::vector<VkImageLayout> layouts);
     /// Is there anything to copy?
     [[nodiscard]] explicit operator bool() const { return image_ && !copied_; }
@@ -24,7 +24,7 @@ public:
     /// Its texels are not needed.
     void drop();
     /// Retires it if it has been copied. Not for copyTo() to do: while commands are recorded nothing is allocated, and
-    /// what is retired has to be noted somewhere.
+    /// retiring takes memory for a note.
     void letGo();
 
 private:

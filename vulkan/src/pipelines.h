@@ -20,13 +20,13 @@ struct GraphicsState {
     std::span<const VkVertexInputBindingDescription> bindings;
     std::span<const VkVertexInputAttributeDescription> attributes;
     VkFormat colour_format = VK_FORMAT_UNDEFINED; // UNDEFINED: no colour attachment
-    VkFormat second_format = VK_FORMAT_UNDEFINED; // of a second colour attachment, likewise
+    VkFormat second_format = VK_FORMAT_UNDEFINED; // UNDEFINED: no second colour attachment
     VkFormat third_format = VK_FORMAT_UNDEFINED;
     VkColorComponentFlags colour_mask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                                        VK_COLOR_COMPONENT_A_BIT; // what is written of it
-    bool keeps_least = false;      // of what is there and what is drawn, the lesser one of each channel
-    bool takes_away = false;       // what is drawn is subtracted from what is there
-    bool chooses_channels = false; // those are written whose dynamic blend constant is 1; those with 0 stay
+                                        VK_COLOR_COMPONENT_A_BIT; // the channels of it that are written
+    bool keeps_least = false;      // each channel keeps the lesser of its old and new values
+    bool takes_away = false;       // the new value is subtracted from the old one
+    bool chooses_channels = false; // channels are written whose dynamic blend constant is 1; those with 0 stay
     bool tints = false; // colours multiply what is there, and of alpha the lesser one stays; depth is not written
     VkFormat depth_format = VK_FORMAT_UNDEFINED; // UNDEFINED: no depth; else tested LESS_OR_EQUAL and written
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;

@@ -82,7 +82,7 @@ struct Profiler::Impl {
 
     Device device;
     std::uint32_t max_passes;
-    std::uint32_t tick_bits; // of a timestamp
+    std::uint32_t tick_bits; // bits of a timestamp
     std::vector<Slot> slots;
     std::vector<std::uint64_t> ticks;
     std::vector<std::uint64_t> counts;
@@ -99,7 +99,7 @@ void Profiler::Impl::fetchTimes(Slot& slot)
                                                                sizeof ticks[0], VK_QUERY_RESULT_64_BIT))) {
         return;
     }
-    // What is above the valid bits is undefined, and a clock that wraps between two ticks has still gone on.
+    // Bits above the valid ones are undefined, and the difference is right where the clock wraps between two ticks.
     const std::uint64_t valid = ~std::uint64_t{0} >> (64U - std::min(tick_bits, 64U));
     for (std::uint32_t i = 0; i < n; ++i) {
         const auto elapsed = static_cast<double>((ticks[2 * i + 1] - ticks[2 * i]) & valid);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a ShadowRenderer is made of, how that is fitted to a plan, and whether a call fits what is there.
+// The parts of a ShadowRenderer, how they are fitted to a plan, and checks that a call fits them.
 #pragma once
 
 #include "cascade_fitter.h"
@@ -34,7 +34,7 @@ struct RendererParts {
     [[nodiscard]] std::unique_ptr<MapClass> makeClass(const ResolvedOptions& wanted);
     /// ShadowRenderer::prepare().
     [[nodiscard]] bool prepare(const Plan& plan, VkExtent2D screen);
-    /// Of one of the last plan's options; null where no light has named them.
+    /// The maps of one of the last plan's options; null where no light has named them.
     [[nodiscard]] const MapClass* classOf(std::uint32_t index) const
     {
         return index < classes.size() ? classes[index].get() : nullptr;
@@ -53,7 +53,7 @@ struct RendererParts {
     CascadeFitter fitter;
     MaskPassRecorder mask;
     bool layered;                        // the device can
-    std::vector<pack::FramePass> passes; // of the plan that was prepared last
+    std::vector<pack::FramePass> passes; // passes of the plan that was prepared last
     std::vector<MapReuse> reuse;         // by slot
     std::vector<std::uint8_t> mask_kept; // likewise
     MapNotes notes;

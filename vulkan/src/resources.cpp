@@ -27,7 +27,7 @@ ImageView makeView(Device& device, VkImage image, const ImageInfo& info, VkImage
     return {device, view};
 }
 
-/// What a resource needs, with what the driver says of memory for it alone.
+/// The memory that a resource needs, with the driver's wish for memory of its own.
 struct Needs {
     VkMemoryDedicatedRequirements dedicated{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_REQUIREMENTS};
     VkMemoryRequirements2 all{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2, &dedicated};
@@ -144,7 +144,7 @@ DeviceBuffer::DeviceBuffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlag
 
 namespace {
 
-/// What the host puts in a module's place, or the module.
+/// The host's replacement of a module, or the module.
 std::span<const std::uint32_t> hooked(const ShaderHook& hook, std::span<const std::uint32_t> spirv)
 {
     const auto* const found =

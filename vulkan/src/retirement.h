@@ -15,11 +15,11 @@ class Retirement {
 public:
     Retirement() { slots_.reserve(kUsualSlots); }
 
-    /// What a frame records with its slot, in this order.
+    /// The work that a frame records with its slot, in this order.
     enum class Work : std::uint8_t { bounds, maps, mask };
 
     /// To be called before anything is recorded with a slot. Work that does not come after the slot's last one begins a
-    /// new frame: the slot's last frame has finished then, and what waited for that alone is freed.
+    /// new frame: the slot's last frame has finished then, and resources that waited only for that are freed.
     void enter(std::uint32_t slot, Work work)
     {
         if (slot >= slots_.size()) {
@@ -33,7 +33,7 @@ public:
         }
     }
     /// Frees the resource once every slot that has recorded anything so far has begun a new frame; at once when none
-    /// has. What it is moved from is left empty. When memory for the note of it runs out (std::bad_alloc), it stays
+    /// has. The moved-from resource is left empty. When memory for the note of it runs out (std::bad_alloc), it stays
     /// where it is: a frame in flight may use it.
     template <class Resource>
     void keep(Resource&& resource)

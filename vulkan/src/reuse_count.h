@@ -7,7 +7,7 @@
 
 namespace gnomon::vulkan {
 
-/// What recording the maps of this plan draws and what it does not. A filterable map is restored whole.
+/// Counts the maps that recording this plan draws, and those that it does not. A filterable map is restored whole.
 [[nodiscard]] MapReuse countReuse(const Plan& plan, std::span<const ViewWork> work);
 
 } // namespace gnomon::vulkan

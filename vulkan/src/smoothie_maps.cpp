@@ -18,7 +18,7 @@ constexpr std::uint32_t kGroup = 8; // local sizes of the shaders
 constexpr VkDescriptorType kRead = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
 constexpr VkDescriptorType kStored = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 
-/// What one pass has written others read or write next.
+/// The next passes read or write the output of one pass.
 MemoryBarrier betweenPasses()
 {
     MemoryBarrier barrier;

@@ -49,7 +49,7 @@ private:
     Pass along_x_;
     Pass along_y_;
     Image image_;
-    Image scratch_; // what the first two passes have made of one map, a layer each
+    Image scratch_; // results of the first two passes for one map, a layer each
     bool has_layout_ = false;
 };
 

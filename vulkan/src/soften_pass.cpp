@@ -82,7 +82,7 @@ struct Target {
     const Image& image;
     std::uint32_t layer;
     VkExtent2D extent;
-    bool keeps; // what is there and is not drawn to
+    bool keeps; // keeps texels that are not drawn to
     VkPipelineStageFlags2 readers;
 };
 

@@ -11,7 +11,7 @@
 
 namespace gnomon::vulkan {
 
-/// What the pass reads besides mask and images of its own.
+/// The inputs of the pass besides the mask and images of its own.
 struct SoftenInputs {
     VkImageView depth = VK_NULL_HANDLE;
     VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
@@ -19,9 +19,9 @@ struct SoftenInputs {
     VkBuffer constants = VK_NULL_HANDLE; // begins with a GpuConstants
 };
 
-/// What sets the pass's pipelines apart.
+/// The properties that distinguish the pass's pipelines.
 struct SoftenPipelineKey {
-    VkFormat format = VK_FORMAT_UNDEFINED; // of what is drawn to
+    VkFormat format = VK_FORMAT_UNDEFINED; // format of the target
     std::int32_t scale = 1;
     bool edge_aware = true;
     bool normals = true;
@@ -71,10 +71,10 @@ private:
     Sampler linear_;
     DescriptorSets sets_;
     PipelineLayout layout_;
-    HostBuffer points_; // of the disc, two to a vec4
+    HostBuffer points_; // points of the disc, two to a vec4
     std::vector<Slot> slots_;
     std::vector<Made> pipelines_;
-    std::vector<pack::SoftenDraw> draws_; // of the frame that is being recorded
+    std::vector<pack::SoftenDraw> draws_; // for the frame that is being recorded
     std::array<Image, 2> images_;
 };
 

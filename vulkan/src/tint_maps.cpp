@@ -57,7 +57,7 @@ bool TintMaps::prepare(const Plan& plan, std::uint32_t options, const std::funct
         return was_in_use;
     }
     tints_.letGo();
-    // Of two maps that share their texels each has a layer.
+    // Two maps that share their texels have a layer each.
     const bool paired = (*plan.options)[options].paired_maps();
     places_.assign(plan.views.size(), 0);
     for (std::size_t i = 0; i < plan.views.size(); ++i) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps of what blended casters leave of the light, beside the maps of one of a plan's options: of the same squares, and
-// only for views that have such casters. Red, green and blue are what all of a texel's casters let through together,
-// and alpha is the depth of the nearest one. What lies behind the first thing that blocks is not in it, so that a pane
-// under a floor does not tint the floor: what blocks is drawn first, to a depth image of its own, since the map itself
-// may be averaged, of several samples or not a depth image at all. Based on: T. Lokovic, E. Veach, "Deep Shadow Maps",
-// SIGGRAPH 2000: a transmittance by depth, here with one step. Not taken: M. McGuire, E. Enderton, "Colored Stochastic
-// Shadow Maps", I3D 2011, which keeps the order of panes and receivers, because it trades that for noise, which filters
-// of a few taps leave in the picture.
+// Maps of the light that blended casters let through, beside the maps of one of a plan's options: in the same squares,
+// and only for views that have such casters. Red, green and blue are the light that all of a texel's casters let
+// through together, and alpha is the depth of the nearest one. Casters behind the first blocker are not in it, so that
+// a pane under a floor does not tint the floor. Blockers are drawn first, to a depth image of its own, since the map
+// itself may be averaged, of several samples or not a depth image at all. Based on: T. Lokovic, E. Veach, "Deep Shadow
+// Maps", SIGGRAPH 2000: a transmittance by depth, here with one step. Not taken: M. McGuire, E. Enderton, "Colored
+// Stochastic Shadow Maps", I3D 2011, which keeps the order of panes and receivers, because it trades that for noise,
+// which filters of a few taps leave in the picture.
 #pragma once
 
 #include "layered_target.h"
@@ -17,7 +17,7 @@
 
 namespace gnomon::vulkan {
 
-/// What blocks light, in the depth image that blended casters are tested against.
+/// The formats of blockers, in the depth image that blended casters are tested against.
 [[nodiscard]] MapPassFormats blockerFormats(bool orthographic);
 [[nodiscard]] MapPassFormats tintFormats();
 
@@ -33,7 +33,7 @@ public:
     /// Some view of the prepared plan has one.
     [[nodiscard]] bool inUse() const { return in_use_; }
     [[nodiscard]] const Image& image() const { return tints_.image(); }
-    /// Of a view of that plan: one past its layer; 0: it has none.
+    /// The place of a view of that plan: one past its layer; 0: it has none.
     [[nodiscard]] std::uint32_t placeOf(std::uint32_t view) const { return in_use_ ? places_[view] : 0; }
 
 private:
@@ -44,7 +44,7 @@ private:
 
     Device& device_;
     LayeredTarget tints_;
-    Image depth_;                       // of what blocks; forgotten after each view
+    Image depth_;                       // depth of blockers; discarded after each view
     std::vector<std::uint32_t> places_; // by view
     std::vector<ContentNumber> held_;   // by MapId::index
     bool in_use_ = false;

@@ -158,7 +158,7 @@ void PreparedSize::take(const Plan& plan)
     (void)measure(plan, options_);
     asked_.reserve(options_.size());
     lights_ = plan.lights.size();
-    views_ = std::max(views_, plan.views.size()); // what is made for views does not shrink
+    views_ = std::max(views_, plan.views.size()); // buffers for views do not shrink
     depth_layers_ = std::max(depth_layers_, pack::depthLayersCount(plan));
     cascade_lights_ = std::max(cascade_lights_, pack::cascadeLightCount(plan));
     object_vectors_ = std::max(object_vectors_, pack::objectVectorCount(plan));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a host may hand in wrong, found out before anything is recorded or made of it. All of it throws Error.
+// Checks of a host's wrong inputs, before anything is recorded or made of them. Each throws Error.
 #pragma once
 
 #include <gnomon/plan.h>

@@ -32,8 +32,8 @@ struct VolumePush {
 };
 static_assert(sizeof(VolumePush) == 128);
 
-/// Where a light cap lies in a surface, how far behind it the cap is, in pixels of the surface's own slope: the depths
-/// of both are those of points that are so far away along each axis, and the slope counts the steeper axis alone.
+/// How far behind a surface a light cap in it lies, in pixels of the surface's own slope. The depths of both are those
+/// of points up to this far away along each axis, and the slope counts only the steeper axis.
 float capSlope_px(const Device& device)
 {
     return 2.0F * shared::snapOf(static_cast<float>(device.subPixelBits()));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: M. McGuire, J. F. Hughes, K. T. Egan, M. J. Kilgard, C. Everitt, "Fast, Practical and Robust Shadows", 2003
 // (z-fail with both caps, the scissor and the depth bounds of a light's reach). Departures: depth is clamped in place
-// of a far plane at infinity, so that every camera will do; and faces are counted behind what is seen (z-fail) wherever
-// the eye is, as counting those before it (z-pass) saves caps alone. shadow_volume.h has a third one.
+// of a far plane at infinity, so that every camera works; and faces are counted behind what is seen (z-fail) wherever
+// the eye is, as counting those before it (z-pass) would save only caps. shadow_volume.h has a third one.
 #include "volume_pass.h"
 
 #include "barriers.h"
@@ -44,7 +44,7 @@ struct VolumeMaskConstants {
     VkBool32 has_ids;
 };
 
-// Of volume_depth.frag.
+// Constants of volume_depth.frag.
 struct VolumeDepthConstants {
     VkBool32 has_smooth;
 };
@@ -61,7 +61,7 @@ glm::mat4 clipFromEye(const Camera& camera)
     clip[3] = camera.clip_from_world * glm::dvec4(camera.eye_ws, 1.0);
     if (isOrthographic(camera)) {
         // Volumes are pushed away from the eye (kVolumePush), and near an orthographic eye's plane that is no depth.
-        constexpr double kPush = 4e-6; // of the depth range
+        constexpr double kPush = 4e-6; // share of the depth range
         clip[3].z += camera.reversed_z ? -kPush : kPush;
     }
     return {clip};
@@ -77,7 +77,7 @@ bool isSame(const MaskShape& a, const MaskShape& b)
     return a.normals == b.normals && a.ids == b.ids && a.smooth == b.smooth;
 }
 
-/// What was drawn to the mask comes before, and the depth buffer is free again.
+/// Waits for earlier drawing to the mask, and until the depth buffer is free again.
 void awaitBefore(const Device& device, VkCommandBuffer commands, const Image& depth)
 {
     constexpr VkPipelineStageFlags2 kTests =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights with filter volumes: their casters' shadow volumes are counted in a stencil buffer of our own, beside a copy
-// of the camera's depth, and the count becomes the light's channel of the mask.
+// of the camera's depth, and the count becomes the light's channel the mask's format.
 #pragma once
 
 #include "descriptors.h"
@@ -35,7 +35,7 @@ public:
 
 private:
     struct Key {
-        VkFormat format = VK_FORMAT_UNDEFINED; // of the mask
+        VkFormat format = VK_FORMAT_UNDEFINED; // the mask's format
         std::uint32_t channels = 0;
         MaskShape shape;
         bool inside = false;
@@ -45,7 +45,7 @@ private:
         Pipeline pipeline;
     };
     struct Copy {
-        VkFormat format = VK_FORMAT_UNDEFINED; // of the mask
+        VkFormat format = VK_FORMAT_UNDEFINED; // the mask's format
         bool smooth = false;                   // MaskShape::smooth
         Pipeline pipeline;
     };
@@ -54,7 +54,7 @@ private:
         std::uint32_t slot;
         const Plan& plan;
         const MaskInputs& inputs;
-        VkFormat format; // of the mask
+        VkFormat format; // the mask's format
     };
 
     void makeSets(std::uint32_t options);

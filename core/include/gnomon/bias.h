@@ -11,27 +11,27 @@
 
 namespace gnomon {
 
-/// Which surface of the casters along a ray of light a map holds. A caster must have its thickness for `back` to be of
-/// use: a host says which casters are open or thin (CasterBatch::two_sided), and these are held by their nearest
-/// surface all the same, so that they cast.
+/// Which surface of the casters along a ray of light a map holds. `back` needs casters that have a thickness. A host
+/// says which casters are open or thin (CasterBatch::two_sided); of these a map holds the nearest surface all the same,
+/// so that they cast.
 enum class CasterFaces : std::uint8_t {
     nearest,
-    back, // the nearest that faces away from the light: a lit surface is not in the map and cannot shadow itself
+    back, // the nearest that faces away from the light: the map holds no lit surface, so none can shadow itself
     /// Midway between the first surface and the second, or the first where there is no second. Draws casters twice.
-    /// Of maps in a depth format that are not averaged.
+    /// Only for maps in a depth format that are not averaged.
     midpoint,
 };
 [[nodiscard]] GNOMON_API std::string_view nameOf(CasterFaces value);
 
-/// Which triangles of its casters the rasteriser leaves out of a map, as engines say it: of all of them, whatever the
-/// host says of open and thin ones, and whichever way it means. `front` is what CasterFaces::back is, but without its
-/// care: what is open loses its shadow or a part of it, and shadows shrink. To show what goes wrong, and for hosts
-/// whose art is made for it. A caster is seen from the light, and of one that is mirrored the winding counts the other
-/// way round (CasterBatch::mirrored). Goes with CasterFaces::nearest alone.
+/// Which triangles of its casters the rasteriser leaves out of a map. This culls all casters, also those that the host
+/// calls open or thin. `front` is like CasterFaces::back but makes no exceptions: an open caster loses its shadow or a
+/// part of it, and shadows shrink. It is there to show what goes wrong, and for hosts whose art is made for it. A
+/// caster is seen from the light, and the winding of a mirrored caster counts the other way round
+/// (CasterBatch::mirrored). Goes with CasterFaces::nearest alone.
 enum class CasterCull : std::uint8_t {
     none,
     back,  // those that face away from the light: single sheets that are seen from behind cast nothing
-    front, // those that face it: of what is closed the far side is held, and of single sheets that are lit nothing
+    front, // those that face it: a map holds the far side of closed casters, and nothing of lit single sheets
 };
 [[nodiscard]] GNOMON_API std::string_view nameOf(CasterCull value);
 

@@ -12,14 +12,14 @@
 
 namespace gnomon {
 
-/// What a light is, which says what its maps have to cover.
+/// The type of a light. It decides what the light's maps have to cover.
 enum class LightType : std::uint8_t { directional, spot, point };
-/// automatic: of partition and fit the planner chooses, for each light and frame; of the filter resolve(), by quality
-/// (docs/techniques/auto.md).
+/// How receivers are divided among frustums. automatic: the planner chooses partition and fit for each light and frame,
+/// and resolve() chooses the filter by quality (docs/techniques/auto.md).
 enum class Partition : std::uint8_t { single, cascades, sdsm, cube, paraboloid, multi, automatic };
 /// How a frustum's projection is shaped.
 enum class Fit : std::uint8_t { uniform, lispsm, lispsm_simple, tsm, psm, scene, automatic };
-/// What a texel stores and how it is tested: docs/which-technique.md.
+/// The value that a texel stores, and the test that reads it: docs/which-technique.md.
 enum class Filter : std::uint8_t {
     hard,
     pcf,
@@ -36,12 +36,12 @@ enum class Filter : std::uint8_t {
     smoothies,
     automatic
 };
-/// What is done to the mask on the screen.
+/// The step that softens the mask on the screen.
 enum class Soften : std::uint8_t { none, blur, smoothies, converge };
 /// How a map follows a moving camera or sun.
 enum class Motion : std::uint8_t { free, snap, step_jump, step_band, step_blend, step_alternate };
 
-/// The kernel of Filter::pcf, and of Filter::smoothies, whose map is tested as pcf tests it.
+/// The kernel of Filter::pcf. Filter::smoothies tests its map with it too.
 enum class PcfKernel : std::uint8_t {
     bilinear_2x2,
     gaussian_3x3,
@@ -49,11 +49,11 @@ enum class PcfKernel : std::uint8_t {
     gaussian_7x7,
     poisson,
     vogel,
-    box_3x3,       // nine point samples a texel apart, all of one weight
-    projected_3x3, // the same with their offsets divided by the map's w, in metres from a lamp, at most 1: as published
+    box_3x3,       // nine point samples a texel apart, all with the same weight
+    projected_3x3, // box_3x3 with its offsets divided by the map's w, in metres from a lamp, at most 1: as published
 };
 
-/// What a map texel is stored as. Which filter can use which is filterTraits().formats.
+/// The format of a map's texel. filterTraits().formats lists those that a filter can use.
 enum class MapFormat : std::uint8_t {
     d16,
     d32f,
@@ -76,8 +76,8 @@ enum class MapFormat : std::uint8_t {
 struct Technique {
     Partition partition = Partition::automatic; // how receivers are divided among frustums
     Fit fit = Fit::automatic;                   // how each frustum's projection is shaped
-    Filter filter = Filter::automatic;          // what a texel stores and how it is tested
-    Soften soften = Soften::none;               // what is done to the mask on the screen
+    Filter filter = Filter::automatic;          // the value that a texel stores, and its test
+    Soften soften = Soften::none;               // how the mask is softened on the screen
     Motion motion = Motion::free;               // how maps follow a moving camera or sun
 
     bool operator==(const Technique&) const = default;
@@ -88,7 +88,7 @@ inline constexpr Technique kPlainTechnique{Partition::single, Fit::uniform, Filt
 /// One row of the table of all values: what `gnomon list` prints and every parser reads.
 struct ChoiceValue {
     std::string_view choice;  // "light", "partition", "fit", "filter", "soften", "motion"
-    std::string_view name;    // as typed on the command line; unique over all choices, but for auto and smoothies
+    std::string_view name;    // as typed on the command line; unique over all choices, except auto and smoothies
     std::uint8_t value;       // of the choice's enum
     std::string_view summary; // one line
     std::string_view source;  // author, title, year
@@ -118,13 +118,13 @@ struct FilterTraits {
     bool depth_only;                    // a bare depth attachment can hold it
     bool clamps_near;                   // a caster before the near plane may be clamped onto it
     bool filterable;                    // texels may be averaged: MomentOptions apply, and receivers are drawn too
-    bool integrates_light; // it always does, and compares single depths for that: see integratesLight() (options.h)
-    bool weighs_frames;    // Soften::converge: a frame counts the more, the nearer it reads to a texel's centre
-    bool ids = false;      // texels hold ids of objects (object_ids.h): receivers are drawn too, and the mask is told
-                           // whose pixel it is
-    bool has_maps = true;  // false: it counts faces of shadow volumes, and a light so planned has no views
+    bool integrates_light;              // it always does, by comparing single depths: see integratesLight() (options.h)
+    bool weighs_frames;   // Soften::converge: a frame counts for more, the nearer to a texel's centre it reads
+    bool ids = false;     // texels hold ids of objects (object_ids.h): receivers are drawn too, and the mask gets the
+                          // object of each pixel
+    bool has_maps = true; // false: it counts faces of shadow volumes, and a light so planned has no views
 };
-/// Null for automatic, which stands for another (filterOf()).
+/// The row of a filter. Null for automatic, which stands for another filter (filterOf()).
 [[nodiscard]] GNOMON_API const FilterTraits* filterTraits(Filter filter);
 
 /// Why this combination cannot be had, as a sentence that lives as long as the program; nothing when it can.

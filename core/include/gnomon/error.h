@@ -11,31 +11,31 @@
 
 namespace gnomon {
 
-/// What a program can do about an Error, where it can do something by itself.
+/// The kinds of Error that a program may be able to handle by itself.
 enum class ErrorKind : std::uint8_t {
     other,
-    /// Of the host or of the device. Smaller maps or a smaller picture may do. Where the library's own heap is
-    /// exhausted, std::bad_alloc comes out instead.
+    /// The host or the device has no memory left. Smaller maps or a smaller picture may fit. The library throws
+    /// std::bad_alloc instead where its own heap is exhausted.
     out_of_memory,
-    /// The Vulkan device is lost, or has not answered for so long that it is taken for lost. Nothing that was made with
-    /// it can be used any more, only destroyed. All can be made again with a new device.
+    /// The Vulkan device is lost, or has not answered for so long that it is taken for lost. Objects that were made
+    /// with it can only be destroyed. All can be made again with a new device.
     device_lost,
 };
 
-/// what() is one line: what was tried, what was found, what to do about it (where there is something to do).
+/// what() is one line: what was tried, what was found, and what to do about it where something can be done.
 class GNOMON_API Error : public std::runtime_error {
 public:
     /// Parts of one sentence each, without a full stop. `todo` may be empty.
     Error(const std::string& tried, const std::string& found, const std::string& todo = {},
           ErrorKind kind = ErrorKind::other);
 
-    /// What a program can do about it by itself.
+    /// The kind of error, which says what a program can do by itself.
     [[nodiscard]] ErrorKind kind() const { return kind_; }
-    /// What was tried.
+    /// The step that was tried.
     [[nodiscard]] const std::string& tried() const { return tried_; }
-    /// What was found instead.
+    /// The finding that made it fail.
     [[nodiscard]] const std::string& found() const { return found_; }
-    /// What to do about it; may be empty.
+    /// The advice what to do about it; may be empty.
     [[nodiscard]] const std::string& todo() const { return todo_; }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a host knows about one frame: camera, lights and the bounds of its objects. Plain data; nothing is kept.
+// A host's description of one frame: camera, lights and the bounds of its objects. Plain data; nothing is kept.
 #pragma once
 
 #include <gnomon/choices.h>
@@ -16,7 +16,7 @@
 
 namespace gnomon {
 
-/// What z of a camera's clip space is from the near plane to the far one.
+/// The range of z in a camera's clip space, from one depth plane to the other.
 enum class ClipDepth : std::uint8_t {
     zero_to_one,      // [0, w]: Vulkan, Direct3D, Metal
     minus_one_to_one, // [-w, w]: OpenGL; the depth buffer holds z / w * 0.5 + 0.5
@@ -26,14 +26,14 @@ enum class ClipDepth : std::uint8_t {
 struct Camera {
     glm::dvec3 eye_ws{0.0};          // metres, world space
     glm::dmat4 clip_from_world{1.0}; // from world space to clip space, y up or down
-    /// Depth 1 at the near plane, 0 at the far plane and where nothing was drawn. False: the other way round. Where the
-    /// matrix says otherwise, all lights get Outcome degenerate.
+    /// Depth is 1 at the near plane, 0 at the far plane and where nothing was drawn. False: the other way round. All
+    /// lights get Outcome degenerate where the matrix disagrees.
     bool reversed_z = true;
     /// How far clip_from_world moves the picture for anti-aliasing, pixels of Frame::size_px, y down; 0 where it does
-    /// not. Known, it is no movement of the camera: see convergeSample().
+    /// not. A jitter that is given here does not count as movement of the camera: see convergeSample().
     glm::dvec2 jitter_px{0.0};
-    /// Nothing but the host can tell: a matrix of the one kind is a camera of the other kind, too, whose near plane is
-    /// nearly twice as far away, or half as far.
+    /// Only the host knows this: each matrix is a valid camera of the other kind too, with its near plane nearly twice
+    /// or half as far away.
     ClipDepth clip_depth = ClipDepth::zero_to_one;
 
     bool operator==(const Camera&) const = default;
@@ -42,32 +42,32 @@ struct Camera {
 [[nodiscard]] GNOMON_API glm::dmat4 clipFromWorld(const Camera& camera);
 /// Are its lines of sight parallel?
 [[nodiscard]] GNOMON_API bool isOrthographic(const Camera& camera);
-/// Does `now` see what `before` saw, where it saw it? But for jitter_px and rounding. `size_px`: of both pictures.
+/// Does `now` see the same picture as `before`, apart from jitter_px and rounding? `size_px`: the size of both
+/// pictures.
 [[nodiscard]] GNOMON_API bool sameSight(const Camera& before, const Camera& now, const glm::uvec2& size_px);
 
-/// One light that may cast. `key` tells lights apart over time: the same key in the next frame is the same light. Of
-/// several with one key the first is taken for the first of the frame before, and so on: where one of them goes, the
-/// others are drawn anew.
+/// One light that may cast. `key` tells lights apart over time: the same key in the next frame is the same light.
+/// Several lights with one key are matched in their order: where one of them goes, the others are drawn anew.
 struct Light {
     std::uint32_t key = 0;                   // the same as long as it is the same light
     LightType type = LightType::directional; // which of the numbers below count
     glm::dvec3 position_ws{0.0};             // spot, point
     glm::dvec3 direction_ws{0.0, -1.0, 0.0}; // directional, spot: unit, the way light travels
-    /// spot: (0, pi / 2], from the axis. One frustum holds 60 degrees (1.0471); a wider one is divided as a point light
-    /// is, by partition cube, multi, paraboloid or auto.
+    /// spot: (0, pi / 2], from the axis. One frustum holds 60 degrees (1.0471); a wider light is divided as a point
+    /// light is, by partition cube, multi, paraboloid or auto.
     double outer_half_angle_rad = 0.7853981634;
     double range_m = 0.0; // spot, point: reach, > 0; 0 means "as far as the scene goes"
     double near_m = 0.0;  // spot, point: nothing nearer along a map's axis casts; 0: found, see below
-    /// Directional: how wide it is in the sky, 0 .. pi/2; 0.53 degrees is the sun. What filters that know the light's
-    /// size make penumbrae of; 0 is a light without size, and hard.
+    /// Directional: how wide it is in the sky, 0 .. pi/2; 0.53 degrees is the sun. Filters that know the light's size
+    /// make penumbrae from it. 0 is a light without size, with hard shadows.
     double angular_diameter_rad = 0.00925025;
-    double radius_m = 0.0;    // spot, point: radius of the sphere that shines, 0 .. 1e9; 0 is hard, too
+    double radius_m = 0.0;    // spot, point: radius of the sphere that shines, 0 .. 1e9; 0: hard shadows
     bool casts_shadow = true; // false: no map; its mask channel reads 1
-    /// What it gives beside the others: candela of a spot or point light, lux of a directional one, both in any one
-    /// scale; >= 0. Where maps share a budget (ShadowOptions::budget_texels), what the picture owes to a light counts.
+    /// Its brightness relative to the other lights: candela for a spot or point light, lux for a directional one, both
+    /// in any one scale; >= 0. It weighs the lights where maps share a budget (ShadowOptions::budget_texels).
     double brightness = 1.0;
-    std::uint32_t options = 0; // which of the planner's options it is planned by; beyond them: Outcome refused
-    /// Texels on a side of each of its maps: 16 .. those of its options, which are taken for what is beyond. 0: as its
+    std::uint32_t options = 0; // index of the planner's options for it; beyond them: Outcome refused
+    /// Texels on a side of each of its maps: 16 .. those of its options, which also replace a value outside. 0: as its
     /// options say.
     std::uint32_t map_size = 0;
     /// The groups of casters that it makes shadows of (ObjectFlags::groups): bits, all values are legal. A caster
@@ -85,33 +85,34 @@ struct LightExtent {
     double near_m = 0.0;  // nothing nearer casts
     double reach_m = 0.0; // nothing farther matters
 };
-/// What Light::near_m and range_m stand for, zeros included: a range of 0 reaches the farthest corner of the scene, but
-/// at least twice the near distance, or 1 m where the scene is but the light's own place. A near distance of 0 is a
-/// thousandth of the reach. A planner takes a smaller one, down to a 100,000th: half the way to the nearest bounds of a
-/// caster, and a 4000th where a caster's bounds are around the light. The bounds are those of all objects, not empty.
-/// Precondition: the light's numbers are finite and not negative. For a directional light, zeros.
+/// The distances that Light::near_m and range_m stand for, zeros included. A range of 0 reaches the farthest corner of
+/// the scene, but at least twice the near distance, or 1 m where the scene is only the light's own place. A near
+/// distance of 0 is a thousandth of the reach. A planner takes a smaller one, down to a 100,000th: half the way to the
+/// nearest bounds of a caster, and a 4000th where a caster's bounds are around the light. The bounds are those of all
+/// objects, not empty. Precondition: the light's numbers are finite and not negative. For a directional light, zeros.
 [[nodiscard]] GNOMON_API LightExtent extentOf(const Light& light, const Aabb& scene_bounds_ws);
 
 /// All that planning asks of a host.
 struct Frame {
     std::uint64_t index = 0;            // counted by the host; the plan has it as well
-    double time_s = 0.0;                // s, on any clock that does not run back: what steps and fades go by
+    double time_s = 0.0;                // s, on any clock that does not run back; for steps and fades
     Camera camera;                      // what looks at the scene
-    glm::uvec2 size_px{1280, 720};      // of the picture; >= 1
+    glm::uvec2 size_px{1280, 720};      // the picture's size; >= 1
     std::span<const Light> lights;      // in any order; kept by the host
     const ObjectSet* objects = nullptr; // null: all lights get Outcome degenerate
     /// Layers of the world for options with LayerPlacement::world that give none themselves: from low to high, as many
-    /// as their `layers`; else those lights get Outcome refused. Where they change, what was drawn with them is drawn
-    /// again. Empty: layers are found.
+    /// as their `layers`; else those lights get Outcome refused. Maps that were drawn with them are drawn again where
+    /// they change. Empty: layers are found.
     std::span<const WorldLayer> layers;
-    /// The camera was cut: the picture goes on from no other. What is remembered of earlier pictures is not used.
+    /// The camera was cut: the picture does not continue the last one. Nothing remembered from earlier pictures is
+    /// used.
     bool cut = false;
-    /// What drawing a texel of a map takes on this device, milliseconds, as far as the host knows (DrawRate,
-    /// gnomon/draw_rate.h). What ShadowOptions::draw_budget_ms goes by, and nothing else does. What is not a finite
-    /// number above 0: not known.
+    /// The time that drawing a texel of a map takes on this device, milliseconds, as far as the host knows (DrawRate,
+    /// gnomon/draw_rate.h). Only ShadowOptions::draw_budget_ms uses it. A value that is not a finite number above 0
+    /// means that it is not known.
     double draw_ms_per_texel = 0.0;
-    /// Whoever draws maps can clamp casters onto a near plane that they are before (Vulkan: depthClamp). False: near
-    /// planes lie before all that casts, at some precision of depth (ViewProjection::clamp_near is false).
+    /// The backend can clamp casters onto a near plane that they are before (Vulkan: depthClamp). False: near planes
+    /// lie before all casters, which costs some precision of depth (ViewProjection::clamp_near is false).
     bool clamps_depth = true;
 };
 

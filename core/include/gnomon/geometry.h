@@ -30,13 +30,13 @@ struct Aabb {
     glm::vec3 min{std::numeric_limits<float>::infinity()};  // the corner of least x, y and z, metres
     glm::vec3 max{-std::numeric_limits<float>::infinity()}; // the corner of greatest x, y and z, metres
 
-    /// Holds no point; so is a box of numbers that are none.
+    /// It holds no point. A box with a NaN is empty too.
     [[nodiscard]] bool empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
     /// Its middle; meaningless for an empty box.
     [[nodiscard]] glm::vec3 centre() const { return (min + max) * 0.5F; }
     /// Full edge lengths; meaningless for an empty box.
     [[nodiscard]] glm::vec3 extent() const { return max - min; }
-    /// Have both a point in common? Boxes that touch do.
+    /// Do both have a point in common? Boxes that touch do.
     [[nodiscard]] bool overlaps(const Aabb& other) const
     {
         return min.x <= other.max.x && max.x >= other.min.x && min.y <= other.max.y && max.y >= other.min.y &&
@@ -118,16 +118,16 @@ public:
     [[nodiscard]] ConvexBody swept(const glm::dvec3& offset) const;
     /// Inward planes of all faces that are not slivers, each once.
     [[nodiscard]] std::vector<Plane> planes() const;
-    /// The same into `out`, which is cleared first.
+    /// Writes these planes into `out`, which is cleared first.
     void planes(std::vector<Plane>& out) const;
 
     /// Vertices of all faces, face after face (a corner appears once per face it is on).
     [[nodiscard]] std::span<const glm::dvec3> points() const { return points_; }
     /// Number of vertices of each face.
     [[nodiscard]] std::span<const std::uint32_t> faceSizes() const { return face_sizes_; }
-    /// Is a point inside, or at most so many metres outside of a face? Never of an empty body.
+    /// Is a point inside, or at most `tolerance_m` outside of a face? False for an empty body.
     [[nodiscard]] bool contains(const glm::dvec3& p, double tolerance_m = 0.0) const;
-    /// Cubic metres; 0 of an empty body.
+    /// Cubic metres; 0 for an empty body.
     [[nodiscard]] double volume() const;
 
 private:

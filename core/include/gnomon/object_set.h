@@ -17,32 +17,32 @@ namespace gnomon {
 /// Pieces of one object that ids tell apart; more share numbers.
 inline constexpr std::uint32_t kMostPieces = 4096;
 
-/// Casters and lights meet in groups, a bit each: a light's maps hold casters of the light's groups alone.
+/// All groups of casters and lights, a bit each. A light's maps hold only casters of the light's groups.
 inline constexpr std::uint32_t kAllGroups = 0xFFFFFFFFU;
-/// Group 0, which objects are in unless they say otherwise. Then one object leaves it for a group of its own, and a
-/// light that leaves out that group needs no word about any other object.
+/// Group 0, which objects are in by default. To hide one object from a light, give the object a group of its own and
+/// leave that group out of the light's groups.
 inline constexpr std::uint32_t kCommonGroup = 1;
 
-/// What an object does to shadows.
+/// How an object takes part in shadows.
 struct ObjectFlags {
-    /// Off spares drawing what throws no shadow anyway, such as level ground. Filterable maps
+    /// Off saves drawing an object that throws no shadow anyway, such as level ground. Filterable maps
     /// (FilterTraits::filterable) draw it all the same where the camera sees it, because their averages need the
-    /// receiver's own depth; then it casts. `groups` 0 is for what must not cast.
+    /// receiver's own depth; then it casts. Use `groups` 0 for an object that must not cast.
     bool casts = true;
     bool receives = true; // off: planning takes no notice that the camera sees it
-    bool dynamic = false; // a hint: expected to move; kept apart from what stands still
-    /// Filter volumes counts faces of what casts, and only of a closed body is the count right: each edge of its
-    /// triangles is run along as often one way as the other, by opaque triangles of this object or of others that cast
-    /// too, and nothing is cut away. Others are refused or left out (VolumeOptions::open).
+    bool dynamic = false; // a hint: expected to move; kept apart from still objects
+    /// Filter volumes counts faces of casters, and the count is right only for a closed body: opaque triangles of this
+    /// object, or of others that cast too, run along each edge as often one way as the other, and nothing is cut away.
+    /// Open casters are refused or left out (VolumeOptions::open).
     bool closed = false;
-    /// IdOf::face: of how many pieces its triangles are, 1 .. kMostPieces, each of which shades the others. 0: nobody
-    /// said so, and lights that tell pieces apart are refused.
+    /// IdOf::face: the number of pieces that its triangles belong to, 1 .. kMostPieces. Each piece shades the others.
+    /// 0: not given, and lights that tell pieces apart are refused.
     std::uint16_t pieces = 0;
-    /// Its surface goes on in others' without an edge, as those of floor tiles do. MultiDivide::receivers then has
-    /// frustums fade over into each other there. Nothing else asks.
+    /// Its surface continues in that of other objects without an edge, as floor tiles do. MultiDivide::receivers then
+    /// lets frustums fade over into each other there. Nothing else reads this.
     bool joined = false;
-    /// The groups that it casts in: bits, all values are legal. A light draws it to maps, and counts it as a volume,
-    /// where Light::groups has one of them; it receives shadow of any light. 0: no light does, whatever the filter.
+    /// The groups that it casts in: bits, all values are legal. A light draws it to maps, or counts its volume, where
+    /// Light::groups has one of them. It receives shadow from any light. 0: it casts for no light, with any filter.
     std::uint32_t groups = kCommonGroup;
 
     friend bool operator==(const ObjectFlags&, const ObjectFlags&) = default;
@@ -63,20 +63,21 @@ struct ObjectId {
 /// A cell of an ObjectSet's octree. Its objects may reach beyond it, by half its size on every side.
 struct OctreeCell {
     Aabb bounds_ws;            // a cube
-    std::uint32_t objects = 0; // that hang in it and in no smaller one; 1 at least
+    std::uint32_t objects = 0; // objects in this cell and in no smaller one; at least 1
 };
 
-/// No coordinate of an object's bounds may be larger; metres. The set's own arithmetic is sound up to here. That is
-/// more than a world may be (kFarthestPlace_m in world_range.h): what lies between is found, and plans say that it is
-/// too far.
+/// No coordinate of an object's bounds may be larger; metres. The set's own arithmetic is sound up to here. This is
+/// beyond the limit of a world (kFarthestPlace_m in world_range.h): queries find objects between both limits, and plans
+/// report them as too far.
 inline constexpr float kFarthestBounds_m = 1e12F;
 
-/// Indices are dense: 0 .. size() - 1 in order of insertion, the smallest one is reused first. They are what Plan lists
-/// name. What changes an object takes its ObjectId and is checked in every build: a name of an object that is gone, or
-/// of another set, does nothing and says so. What reads takes either, and finds nothing of an object that is not there.
+/// Indices are dense: 0 .. size() - 1 in order of insertion, the smallest one is reused first. The lists of a Plan hold
+/// indices. Functions that change an object take its ObjectId and check it in every build: with the name of an object
+/// that is gone, or of another set, they do nothing and return false. Functions that read take either, and find nothing
+/// for an object that is not there.
 ///
 /// An object whose bounds are empty, not finite or beyond kFarthestBounds_m lives, but is nowhere: no query finds it,
-/// no box holds it, and its own bounds read as empty. It is back with the first update() that says where it is.
+/// no box holds it, and its own bounds read as empty. The first update() with sound bounds brings it back.
 ///
 /// A set that was moved from is empty and may be used again. add(), update() and setFlags() throw std::bad_alloc when
 /// memory runs out, and then have changed nothing; the others that change something take no memory.
@@ -87,7 +88,7 @@ public:
     ObjectSet(ObjectSet&&) noexcept;            // the other set is empty then, and may be used again
     ObjectSet& operator=(ObjectSet&&) noexcept; // the other set is empty then, and may be used again
 
-    /// Amortised O(1). Of the 2^30 objects that a set can hold none is left: an id that names nothing.
+    /// Adds an object; amortised O(1). Returns an id that names nothing where the set already holds 2^30 objects.
     ObjectId add(const Aabb& bounds_ws, ObjectFlags flags = {});
     /// Moves an object; O(1), allocates nothing once warm. Same bounds: no change is recorded. False: no such object.
     bool update(ObjectId object, const Aabb& bounds_ws);
@@ -107,16 +108,16 @@ public:
     [[nodiscard]] bool alive(std::uint32_t index) const;
     /// The object that has an index now; names nothing where none does.
     [[nodiscard]] ObjectId idAt(std::uint32_t index) const;
-    /// Empty of an object that is nowhere, or not there.
+    /// The bounds of an object; empty where it is nowhere, or not in the set.
     [[nodiscard]] Aabb bounds(ObjectId object) const;
-    /// By index, which another object may have got.
+    /// By index, which another object may have by now.
     [[nodiscard]] Aabb bounds(std::uint32_t index) const;
     /// The bounds by index, for loops over many; empty where there is no object, or it is nowhere. Holds until the next
     /// add().
     [[nodiscard]] std::span<const Aabb> allBounds() const;
-    /// Of an object that is not there: nothing is set.
+    /// The flags of an object. Nothing is set for an object that is not in the set.
     [[nodiscard]] ObjectFlags flags(ObjectId object) const;
-    /// By index, which another object may have got.
+    /// By index, which another object may have by now.
     [[nodiscard]] ObjectFlags flags(std::uint32_t index) const;
     /// How many live objects are nowhere. In a sound scene: 0.
     [[nodiscard]] std::uint32_t nowhere() const;
@@ -125,7 +126,7 @@ public:
     [[nodiscard]] Aabb bounds() const;
     /// Counts up at every add, update, touch, setFlags and remove that did something.
     [[nodiscard]] std::uint64_t version() const;
-    /// That count at the last change of the object that has this index, or had it last; 0 where none ever had.
+    /// The version at the last change of the object that has this index, or had it last; 0 where none ever had it.
     [[nodiscard]] std::uint64_t changed(std::uint32_t index) const;
     /// `changed` by index.
     [[nodiscard]] std::span<const std::uint64_t> allChanges() const;
@@ -135,8 +136,8 @@ public:
     /// Which objects a query() finds.
     enum class Want : std::uint8_t { casters, receivers, all };
     /// Appends, in ascending order, the index of every live object whose bounds the convex region `planes` (inward) may
-    /// touch. No object inside is ever left out. `out` is not cleared. `groups`: casters of these alone, of a light's
-    /// groups say; plays no part for Want::receivers and Want::all. An object that casts in no group is no caster.
+    /// touch. No object inside is ever left out. `out` is not cleared. `groups`: finds only casters in one of these
+    /// groups; has no effect with Want::receivers and Want::all. An object that casts in no group is no caster.
     void query(std::span<const Plane> planes, Want want, std::vector<std::uint32_t>& out,
                std::uint32_t groups = kAllGroups) const;
 

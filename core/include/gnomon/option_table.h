@@ -15,7 +15,7 @@
 
 namespace gnomon {
 
-/// What a value of a row is.
+/// The type of a row's value.
 enum class OptionType : std::uint8_t { flag, integer, real, choice, numbers };
 
 /// A value of any row; the member of the row's type holds.
@@ -28,21 +28,21 @@ struct OptionValue {
     bool none = false;           // a member that may have no value has none
 };
 
-/// All that is known of one member of ShadowOptions.
+/// The description of one member of ShadowOptions.
 struct OptionRow {
-    std::string_view key;                                 // as presets and --set have it: "pcf.taps"
+    std::string_view key;                                 // its name in presets and --set: "pcf.taps"
     OptionType type = OptionType::flag;                   // which member of OptionValue holds
     std::string_view form;                                // how its value is written, for help: "N"
     std::string_view unit;                                // empty: none
-    double min = 0.0;                                     // of each number; inclusive
-    double max = 0.0;                                     // inclusive, too
+    double min = 0.0;                                     // least value of each number; inclusive
+    double max = 0.0;                                     // largest value of each number; inclusive
     std::uint32_t count = 1;                              // numbers: how many, at most
-    std::vector<std::string_view> (*choices)() = nullptr; // choice: what can be said
+    std::vector<std::string_view> (*choices)() = nullptr; // choice: the names to choose from
     std::string_view none_text;                           // how one writes that there is no value; empty: one cannot
     std::string_view doc;                                 // one line
     bool own_option = false;                              // has a command line option of its own
     bool (*used)(const ShadowOptions&) = nullptr;         // null: always has an effect
-    std::string_view used_when;                           // the words for it: "filter pcf"
+    std::string_view used_when;                           // when it is used, in words: "filter pcf"
     OptionValue (*get)(const ShadowOptions&) = nullptr;   // never null
     /// Members that cannot hold together with the new value are taken back to their defaults. The value is of the row's
     /// type; one outside of its range is set as it is, and refused by resolve().
@@ -51,9 +51,9 @@ struct OptionRow {
 
 /// All rows, in the order in which help shows them.
 [[nodiscard]] GNOMON_API std::span<const OptionRow> optionTable();
-/// Null for an unknown key.
+/// The row of a key; null for an unknown key.
 [[nodiscard]] GNOMON_API const OptionRow* findOption(std::string_view key);
-/// As one would write it, in every locale; none_text for none.
+/// The value as one would write it, the same in every locale; none_text where there is no value.
 [[nodiscard]] GNOMON_API std::string textOf(const OptionRow& row, const OptionValue& value);
 /// The first member that is outside of its range, as a sentence; nothing when all are inside.
 [[nodiscard]] GNOMON_API std::optional<std::string> firstOutOfRange(const ShadowOptions& options);

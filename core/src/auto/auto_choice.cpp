@@ -103,7 +103,7 @@ const AutoDecision& AutoChooser::decide(const FrustumInput& input, const Sight& 
     const bool placed = input.light.type != LightType::directional;
     const std::size_t before = placed || memory.decision.partition == memory.candidates[0].partition ? 0 : 1;
     const std::size_t compared = memory.count == 2 && !placed ? 2 : 1;
-    // What is not taken is looked at now and then, and at once where the view became another one.
+    // The other candidate is predicted now and then, and at once where the view changed.
     const double error_before = memory.candidates[before].error.mean();
     const std::uint32_t halvings = memory.decision.told.halvings;
     predict(input, sight, halvings, frustums, memory.candidates[before]);

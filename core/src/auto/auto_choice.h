@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What partition, fit and map size `auto` come to for each light: the candidates' errors are predicted, and the best
-// one is taken, but not at once where it is hardly better than what the light has.
+// Chooses partition, fit and map size for each light where they are `auto`: the candidates' errors are predicted, and
+// the best one is taken, but not at once where it is hardly better than the light's present choice.
 #pragma once
 
 #include "frustum_planner.h"
@@ -14,10 +14,10 @@
 
 namespace gnomon {
 
-/// What a light that leaves a choice to the planner is planned by.
+/// The choice for a light that leaves one to the planner.
 struct AutoDecision {
     const PartitionTraits* partition = nullptr;
-    std::array<double, kMaxCascades> strengths{}; // of the warps of its slices; 0: none was looked for yet
+    std::array<double, kMaxCascades> strengths{}; // strengths of its slices' warps; 0: none was looked for yet
     AutoChoice told;
 };
 
@@ -30,7 +30,7 @@ public:
     /// Precondition: the recipe predicts(), and `camera` is measured.
     const AutoDecision& decide(const FrustumInput& input, const Sight& sight, std::size_t light,
                                FrustumPlanner& frustums);
-    /// What was decided last; what a light is given before anything can be said of it, if nothing was.
+    /// The last decision; for a light without one, the choice that it starts with.
     [[nodiscard]] const AutoDecision& decisionOf(const Recipe& recipe, std::size_t light);
 
 private:
@@ -39,12 +39,12 @@ private:
         const PartitionTraits* partition = nullptr;
         std::array<double, kMaxCascades> strengths{};
         MapError error;
-        double coarsest_px = 0.0; // of its maps at their largest side
+        double coarsest_px = 0.0; // coarsest texel of its maps at their largest side
     };
     struct Memory {
         std::array<Candidate, 2> candidates;
-        std::size_t count = 0;    // of candidates; 0: nothing is remembered
-        std::uint32_t frames = 0; // since all candidates were looked at
+        std::size_t count = 0;    // number of candidates; 0: nothing is remembered
+        std::uint32_t frames = 0; // frames since all candidates were predicted
         AutoDecision decision;
     };
     static void begin(const Recipe& recipe, LightType type, Memory& memory);
@@ -54,7 +54,7 @@ private:
     LightRows rows_;
     std::vector<Memory> memories_; // by row
     std::vector<std::uint64_t> keys_;
-    std::vector<LightType> types_; // of the frame's lights
+    std::vector<LightType> types_; // types of the frame's lights
     std::vector<Slice> slices_;
 };
 

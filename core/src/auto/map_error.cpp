@@ -10,7 +10,7 @@
 namespace gnomon {
 namespace {
 
-/// Of texels, by which partitions and warps are ranked: finer ones gain next to nothing, pixels.
+/// The texel below which partitions and warps gain next to nothing in the ranking, pixels.
 constexpr double kFinestTexel_px = 0.5;
 /// Coarser than this is too coarse.
 constexpr double kTooCoarse_px = 1.0 / 6.0;
@@ -74,7 +74,8 @@ void lightPoints(const LightSpace& space, std::span<const SightPoint> points, co
 
 glm::dmat2 texelFromPixel(const LitPoint& point, const Warp& warp, const MapFrame& frame)
 {
-    // Of Warp's x = (b - upright) / w and y = (s - nearest) / w: dx = db / w - (b - upright) ds / (n w^2), and
+    // Differentials of Warp's x = (b - upright) / w and y = (s - nearest) / w: dx = db / w - (b - upright) ds / (n
+    // w^2), and
     // dy = ds / w^2, because w grows by ds / n.
     const double w = warp.wAt(point.q);
     const double turned = warp.warped() ? (glm::dot(warp.across(), point.q) - warp.upright) / (warp.n * w * w) : 0.0;

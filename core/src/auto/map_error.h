@@ -16,7 +16,7 @@ namespace gnomon {
 
 /// A SightPoint as a light sees it.
 struct LitPoint {
-    glm::dvec2 q{0.0};            // of the plane across the light, as LightRect has it
+    glm::dvec2 q{0.0};            // in the plane across the light, as in LightRect
     glm::dmat2 q_from_pixel{1.0}; // by how much q moves to the next pixel on the right, and below
     double pixel_m = 0.0;         // SightPoint::pixel_m
     double facing = 0.0;          // SightPoint::facing_m, as LightRect has it on a surface that faces the light
@@ -34,8 +34,8 @@ void lightPoints(const LightSpace& space, std::span<const SightPoint> points, co
 
 /// A sum over points.
 struct MapError {
-    double sum = 0.0;        // of errors, each in [0, 1]
-    double log_texels = 0.0; // of natural logarithms of texels per pixel
+    double sum = 0.0;        // sum of errors, each in [0, 1]
+    double log_texels = 0.0; // sum of natural logarithms of texels per pixel
     std::size_t count = 0;
 
     [[nodiscard]] double mean() const { return count > 0 ? sum / static_cast<double>(count) : 0.0; }
@@ -58,10 +58,10 @@ struct MapError {
 /// `scratch`, which it fills.
 [[nodiscard]] double coarsestTexel_px(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
                                       std::vector<double>& scratch);
-/// Texels in pixels, of surfaces that face both light and eye: by how much they are larger for the distances alone.
-/// What the light or the eye sees at a flat angle does not count more.
+/// Texels in pixels on surfaces that face both light and eye: their size by distances alone. A surface at a flat angle
+/// to the light or the eye does not count for more.
 struct FacingTexels {
-    double coarsest_px = 0.0; // but for a fiftieth
+    double coarsest_px = 0.0; // except for the coarsest fiftieth
     double sum_px = 0.0;      // over all points that have one
 };
 /// Fills `scratch`.

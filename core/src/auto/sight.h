@@ -22,11 +22,12 @@ struct SightPoint {
     double depth_m = 0.0;     // along the view
 };
 
-/// One ray through the middle of each cell of a grid over the picture, ended by the first receiver that it meets. Of a
-/// receiver no more is known than its box: somewhere on the ray's way through it there is a surface, and each ray has a
-/// share of its own of that way, evenly spread over all rays. A flat box is ground or a wall and is met in its middle,
-/// else behind it; a ray that leaves it through its rim goes on to the next. A box around the eye, of an arch or a
-/// room, is hollow where the eye is: a ray that starts in it meets its far side, and only where it meets nothing else.
+/// One ray through the middle of each cell of a grid over the picture, ended by the first receiver that it meets. Only
+/// a receiver's box is known: somewhere on the ray's way through it there is a surface. Each ray assumes it at a share
+/// of its own of that way; shares are evenly spread over all rays. A flat box is ground or a wall and is met in its
+/// middle, else behind it; a ray that leaves it through its rim goes on to the next. A box around the eye, as that of
+/// an arch or a room, is hollow where the eye is: a ray that starts in it meets its far side, and only where it meets
+/// nothing else.
 class Sight {
 public:
     static constexpr int kColumns = 20;
@@ -34,7 +35,7 @@ public:
 
     /// Takes nothing from the heap once warm, and time in proportion to the receivers. Precondition: the view is ok.
     void look(const Frame& frame, const CameraView& view, std::span<const std::uint32_t> receivers);
-    /// Of those rays that meet a box.
+    /// The points of the rays that meet a box.
     [[nodiscard]] std::span<const SightPoint> points() const { return points_; }
     /// A pixel's side on a surface that faces the eye at a depth; 0: there are no points.
     [[nodiscard]] double pixelAt_m(double depth_m, bool perspective) const;
@@ -46,11 +47,11 @@ private:
     struct Ray {
         glm::dvec3 from_ws{0.0};
         glm::dvec3 along_ws{0.0};
-        double share = 0.0;        // of its way through a box, where it is taken to meet what is in there
+        double share = 0.0;        // share of its way through a box at which it meets the surface inside
         double met = 0.0;          // how many times `along_ws` the nearest face is away
-        glm::dvec3 normal_ws{0.0}; // of that face, or its opposite
+        glm::dvec3 normal_ws{0.0}; // normal of that face, or its opposite
         double left = 0.0; // as `met`: where it leaves the last of the boxes that it starts in; 0: there is none
-        int left_axis = 0; // of the face through which it does
+        int left_axis = 0; // axis of the face through which it leaves
     };
     [[nodiscard]] Ray rayAt(const glm::dvec2& place) const;
     void meet(const glm::dmat4& clip_from_world, const Aabb& box);

@@ -53,7 +53,7 @@ Tried goldenSection(const WarpTrial& trial, double low, double high)
     return a.error <= b.error ? a : b;
 }
 
-/// Of the warps; no warp at all is not among them.
+/// The best of the warps. No warp at all is not among them.
 Tried bestWarp(const WarpTrial& trial)
 {
     const double last = std::log(std::max(kFirst, trial.fit.strongest));

@@ -19,8 +19,8 @@ struct WarpTrial {
     std::uint32_t map_size = 0;
     double border_texels = 0.0;
     std::span<const LitPoint> points;
-    /// Of quality best: the outline of the points and of the room for their rays, around which the GPU will fit the
-    /// map. Else empty: the map is that of the whole outline.
+    /// For quality best: the outline of the points and of the room for their rays, around which the GPU will fit the
+    /// map. Else empty: the map covers the whole outline.
     std::span<const glm::dvec2> places;
     double feature_m = 0.0;
 

@@ -19,8 +19,8 @@ namespace gnomon {
 
 struct FitInput {
     const LightSpace& space;
-    /// What is seen and lit, which has to be in the map: as seen from the light, convex, counter-clockwise, one point
-    /// at least, as LightRect has it;
+    /// The outline of what is seen and lit, which has to be in the map: as seen from the light, convex,
+    /// counter-clockwise, one point at least, as in LightRect;
     std::span<const glm::dvec2> outline;
     /// and in the world, the corners of its faces, face after face, and how many each has.
     std::span<const glm::dvec3> body_ws;

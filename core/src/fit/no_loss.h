@@ -19,8 +19,8 @@ inline constexpr double kLossEnds = 1.4;
 /// than the map without it has nothing to give.
 inline constexpr double kWorth = 2.0;
 
-/// The same warp with greatest w `strength` > 1 in place of its own. Of parallel light: what stands upright then does
-/// so at any strength.
+/// A warp with the greatest w changed from `own` to `strength` > 1. For parallel light: upright things stay upright at
+/// any strength.
 [[nodiscard]] inline Warp ofStrength(const Warp& warp, double own, double strength)
 {
     Warp other = warp;
@@ -28,8 +28,8 @@ inline constexpr double kWorth = 2.0;
     return other;
 }
 
-/// What is left of a warp by which the finest texels of a map have `gain` times as many texels, and the coarsest that
-/// are seen are `loss` times as wide, as a share of its strength's logarithm. It fades, so that nothing switches.
+/// The share of a warp's strength (its logarithm) that is kept. The warp gives the finest texels `gain` times the
+/// density, and makes the coarsest ones that are seen `loss` times as wide. It fades, so that nothing switches.
 [[nodiscard]] inline double shareOfWarp(double gain, double loss)
 {
     const double by_gain = std::log(std::max(gain, 1.0)) / std::log(kWorth);

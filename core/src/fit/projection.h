@@ -18,11 +18,11 @@ namespace gnomon {
 /// vanishing line; a texel at its end shall be no more than twice as wide as the widest inside.
 [[nodiscard]] double strongestWarp(double border_texels, std::uint32_t map_size);
 
-/// What a map shows, as points (x, y) of its warp, and how finely.
+/// The rectangle that a map shows, as points (x, y) of its warp, and its texels.
 struct MapFrame {
     glm::dvec2 centre{0.0};
     glm::dvec2 half{1.0};  // from the centre to the edges, border included
-    glm::dvec2 texel{1.0}; // sides of a texel at w = 1, as LightRect has them
+    glm::dvec2 texel{1.0}; // sides of a texel at w = 1, as in LightRect
 };
 
 /// The rectangle that the outline takes after the warp.

@@ -12,10 +12,10 @@
 // affine, which the map's rectangle makes good. A light in the camera's plane, l'_w = 0, needs no case of its own: F is
 // p'_w.
 //
-// What made the technique hard is not in F. A caster behind the camera's plane has a p' that is turned inside out, but
-// it is on the ray of what it shades and has that ray's F. An inverse light (l'_w < 0) reverses the order of depths
-// along the rays, but the map stores metres along the ray. F = 0 among what is seen does harm, and nothing else: that
-// needs the light's image in or close to the cube. These cases are told apart and are drawn without a warp.
+// The known difficulties of the technique do not affect F. A caster behind the camera's plane has a p' that is turned
+// inside out, but it is on the ray of its receiver and has that ray's F. An inverse light (l'_w < 0) reverses the order
+// of depths along the rays, but the map stores metres along the ray. Only F = 0 among the seen points does harm, which
+// needs the light's image in or close to the cube. These cases are detected and drawn without a warp.
 #include "fit/psm.h"
 
 #include "fit/view_slope.h"

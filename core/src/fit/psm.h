@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of a light in the camera's post-perspective space.
+// The image of a light in the camera's post-perspective space.
 #pragma once
 
 #include "fit/fit.h"

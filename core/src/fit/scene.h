@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// What a box takes across a parallel light, and a little more for rounding.
+/// The rectangle of a box across a parallel light, and a little more for rounding.
 [[nodiscard]] LightRect rectOfScene(const LightSpace& space, const Aabb& scene_ws);
 
 struct SceneDepths {

@@ -35,7 +35,7 @@ Warp fitTsm(const FitInput& input)
     const ViewSlope slope = slopeOfView(input);
     const double lambda = slope.length;
     const double low = std::hypot(slope.low, kSoftShare * (slope.low + slope.slope * lambda));
-    const double base = low + slope.slope * lambda; // what is added to the one is in both: where all is equally far,
+    const double base = low + slope.slope * lambda; // both contain the same addend: where all points are equally far,
                                                     // even a millionth in their ratio would be a strong warp
     const double focus = std::pow(low, 1.0 - kFocusShare) * std::pow(base, kFocusShare);
     const double delta = (focus - low) / slope.slope;

@@ -12,8 +12,8 @@ struct Trapezoid {
     double nearest = 0.0;
     double length = 0.0;
     double low = 1.0;      // depth of view at the near end
-    double slope = 0.0;    // by how much it grows
-    double widening = 0.0; // of the sides, as a share of the near end's width
+    double slope = 0.0;    // its growth
+    double widening = 0.0; // growth of the width, as a share of the near end's width
 
     [[nodiscard]] double depthAt(double s) const { return low + slope * s; }
     /// Where the segment ends that begins at `a` and has the error `e`: (b - a) (1 + widening b) = (e depth(a))^2.
@@ -46,7 +46,7 @@ Trapezoid trapezoidOf(const FitInput& input, const glm::dvec2& along, const View
 
 TsmSegments segmentTsm(const FitInput& input, std::uint32_t count)
 {
-    constexpr int kSteps = 60; // of a halving in double precision
+    constexpr int kSteps = 60; // halvings in double precision
     const Warp warp = fitTsm(input);
     TsmSegments found;
     found.along = warp.along;
@@ -55,7 +55,8 @@ TsmSegments segmentTsm(const FitInput& input, std::uint32_t count)
         return found;
     }
     double low = 0.0;
-    double high = std::sqrt(shape.length * (1.0 + shape.widening * shape.length)) / shape.low; // of one segment
+    double high = std::sqrt(shape.length * (1.0 + shape.widening * shape.length)) / shape.low; // the error of one
+                                                                                               // segment
     for (int step = 0; step < kSteps; ++step) {
         const double e = 0.5 * (low + high);
         double end = 0.0;

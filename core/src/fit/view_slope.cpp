@@ -35,7 +35,7 @@ glm::dvec3 seenAt(const FitInput& input, const glm::dvec3& p_ws)
 /// Integrals over an area of two functions that are affine on each of its triangles, and of their products.
 struct Moments {
     double area = 0.0;
-    glm::dvec3 sum{0.0}; // of x, y, z
+    glm::dvec3 sum{0.0}; // sums of x, y, z
     double xx = 0.0;
     double xy = 0.0;
     double yy = 0.0;

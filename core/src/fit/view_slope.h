@@ -20,9 +20,9 @@ struct ViewSlope {
                            // what is seen. Not the least of all: the body has the viewer in it where a box of the
                            // scene has, and would reach to the camera's near plane with nothing there to see
     double high = 0.0;     // and at the far end
-    double length = 0.0;   // of the outline, along `along`
+    double length = 0.0;   // length of the outline, along `along`
     double nearest = 0.0;  // least dot(along, q) of the outline
-    std::string_view weak; // what to say when a warp by this slope is too weak to matter
+    std::string_view weak; // the reason where a warp by this slope is too weak to matter
     Outcome outcome;       // fallback: there is nothing to go by, and the reason says why
 };
 
@@ -30,18 +30,18 @@ struct ViewSlope {
 /// the value is the depth along the view, and `high` is the greatest of all that is seen.
 [[nodiscard]] ViewSlope slopeAcrossLight(const FitInput& input);
 
-/// Of what is seen itself: least squares over its faces, as the light sees them. `low` and `high` are at the ends of
-/// the outline, as far as any corner bears them out.
+/// The slope of the seen body: least squares over its faces, as the light sees them. `low` and `high` are at the ends
+/// of the outline, limited by the values at its corners.
 [[nodiscard]] ViewSlope slopeOfBody(const FitInput& input);
 
 /// slopeAcrossLight() where there is one axis of light, slopeOfBody() where there is not.
 [[nodiscard]] ViewSlope slopeOfView(const FitInput& input);
 
-/// What is nearer to the viewer than this share of the farthest does not rule a warp by even errors, which so is never
-/// stronger than 20. The body of what could be seen often reaches to the eye, because somebody's box does, with nothing
-/// there; the two errors that would be made even are then those of air and of the horizon, and all between has too
-/// little. Of 0, 1/500, 1/250, 1/125 and 1/62 the second and third gave the highest least density on a meadow, a
-/// battlefield and a town (`tools/measure_fits.py --tables density`).
+/// Points nearer to the viewer than this share of the farthest do not affect a warp by even errors, which is therefore
+/// never stronger than 20. The body of possibly seen points often reaches to the eye, because some box does, with
+/// nothing there. The two errors to make equal would then be those of air and of the horizon, and all between would get
+/// too few texels. Among 0, 1/500, 1/250, 1/125 and 1/62 the second and third gave the highest least density on a
+/// meadow, a battlefield and a town (`tools/measure_fits.py --tables density`).
 inline constexpr double kLeastShare = 1.0 / 400.0;
 
 /// How far the vanishing line lies behind the nearest point where both ends have the same error: n of LiSPSM (Wimmer et
@@ -52,11 +52,11 @@ inline constexpr double kLeastShare = 1.0 / 400.0;
     return (low + std::sqrt(low * slope.high)) / slope.slope;
 }
 
-/// The warp along the slope with the vanishing line `n` behind the nearest point; infinite: no warp is wanted. What is
-/// too strong for the map is weakened; what is too weak to matter is a fallback.
+/// The warp along the slope with the vanishing line `n` behind the nearest point; infinite: no warp is wanted. A warp
+/// that is too strong for the map is weakened; one that is too weak to matter is a fallback.
 [[nodiscard]] Warp warpAlong(const FitInput& input, const ViewSlope& slope, double n);
 
-/// Warps weaker than this are not worth that the map no longer keeps to the light's own axes.
+/// Warps weaker than this are not worth leaving the light's own axes.
 inline constexpr double kLeastStrength = 1.01;
 
 /// Stands the image of the outline upright: of all shears the one that leaves x and y uncorrelated over its area. The

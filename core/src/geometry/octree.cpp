@@ -33,8 +33,8 @@ bool Octree::holds(const Node& node, const Aabb& box)
 
 bool Octree::fitsChild(const Node& node, const Aabb& box)
 {
-    // What moved may have its centre beyond the cell while its box is still inside the loose bounds; a child's loose
-    // bounds would not hold it.
+    // An object that moved may have its centre beyond the cell while its box is still inside the loose bounds; a
+    // child's loose bounds would not hold it.
     const glm::dvec3 offset = glm::abs(centreOf(box) - node.centre);
     return std::max({offset.x, offset.y, offset.z}) <= node.half && sizeOf(box) <= node.half;
 }

@@ -24,7 +24,7 @@ struct TreePlace {
     std::uint32_t slot = 0;
 };
 
-/// What its owner keeps of all objects, by handle; several trees may share it.
+/// The owner's data of all objects, by handle; several trees may share it.
 struct TreeObjects {
     std::vector<Aabb> bounds_ws;
     std::vector<TreePlace> places;
@@ -77,11 +77,11 @@ private:
     };
     struct Node {
         glm::dvec3 centre{0.0};
-        double half = 0.0; // of the cell, not of its loose bounds
+        double half = 0.0; // half the cell's side, without its loose bounds
         std::array<std::uint32_t, 8> children{};
         std::uint32_t parent = kNone;
         std::uint32_t first = kNone; // block; it alone may have room left
-        std::uint32_t count = 0;     // of its own objects
+        std::uint32_t count = 0;     // number of its own objects
         std::uint8_t child_count = 0;
         bool divided = false;
 
@@ -92,7 +92,7 @@ private:
         const RegionTest& region;
         std::uint32_t want;
         std::span<std::uint64_t> bits;
-        glm::dvec3 low; // of what is around all objects
+        glm::dvec3 low; // corner of the box around all objects
         glm::dvec3 high;
     };
 

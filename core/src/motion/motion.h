@@ -18,7 +18,7 @@ struct MotionInput {
     double least_size = 0.0; // no side of a map is shorter, as LightRect has it
     std::uint32_t map_size = 0;
     double border_texels = 0.0;
-    double light_reach = 0.0; // of a steady map: room on all sides, as LightRect has it (light_reach.h)
+    double light_reach = 0.0; // for a steady map: room on all sides, in units of LightRect (light_reach.h)
 };
 /// From the rectangle that matters now to the map that is drawn, which holds it and the border.
 using MotionFunction = MapFrame (*)(const LightRect& wanted, const MotionInput& input);
@@ -26,10 +26,10 @@ using MotionFunction = MapFrame (*)(const LightRect& wanted, const MotionInput& 
 struct MotionTraits {
     Motion motion;
     MotionFunction move;
-    /// What a map shows and stores changes in steps alone: its rectangle is drawn whole, whoever is seen, with no warp,
-    /// and its range of depth is a multiple of a power of two.
+    /// A map's rectangle and depths change only in steps: the rectangle is drawn whole, whatever is seen, with no warp,
+    /// and the range of depth is a multiple of a power of two.
     bool steady;
-    Stepping stepping; // of a directional light; others stay where they are
+    Stepping stepping; // for a directional light; others stay where they are
 };
 /// Why a steady map has no warp.
 inline constexpr std::string_view kUnwarped =

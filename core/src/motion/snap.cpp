@@ -69,7 +69,7 @@ Sphere sphereAround(const Camera& camera, const CameraView& view, double begin_m
     return {camera.eye_ws + centre, radius_m};
 }
 
-/// What the scene takes across the light.
+/// The rectangle of the scene across the light.
 LightRect sceneRect(const LightSpace& space, const Aabb& scene_ws)
 {
     const glm::dvec3 centre = glm::dvec3(scene_ws.min) * 0.5 + glm::dvec3(scene_ws.max) * 0.5;

@@ -11,7 +11,7 @@
 
 namespace gnomon {
 
-/// What a motion does with a sun's steps.
+/// How a motion uses a sun's steps.
 enum class Stepping : std::uint8_t {
     none,
     jump, // one position at a time

@@ -196,7 +196,7 @@ void addMapRows(std::vector<OptionRow>& table)
     table.insert(table.end(), std::begin(rows), std::end(rows));
 }
 
-/// What visibility is made of, and against what it bleeds.
+/// Options of the bound that visibility is made of, and against light bleeding.
 void addBoundRows(std::vector<OptionRow>& table)
 {
     const OptionRow rows[]{
@@ -211,7 +211,7 @@ void addBoundRows(std::vector<OptionRow>& table)
     table.insert(table.end(), std::begin(rows), std::end(rows));
 }
 
-/// Of one filter each.
+/// Options that each belong to one filter.
 void addOwnRows(std::vector<OptionRow>& table)
 {
     const OptionRow rows[]{

@@ -22,7 +22,7 @@ std::optional<std::string> endsRefusal(const CascadeOptions& options)
     return std::nullopt;
 }
 
-/// Of filters that compare depths: what the rasteriser makes of depth is kept as it is, and undone where it is read.
+/// Filters that compare depths keep the rasteriser's depth as it is, and undo the projection where they read it.
 std::optional<std::string> metricRefusal(const ShadowOptions& options)
 {
     const Filter filter = filterOf(options);
@@ -68,7 +68,7 @@ std::optional<std::string> idsRefusal(const ShadowOptions& options)
     return std::nullopt;
 }
 
-/// What is said of maps where there are none.
+/// Options of maps that are set for a filter without maps.
 std::optional<std::string> volumesRefusal(const ShadowOptions& options)
 {
     if (hasMaps(options)) {
@@ -148,7 +148,7 @@ std::optional<std::string> softenRefusal(const ShadowOptions& options)
     return std::nullopt;
 }
 
-/// What is cut off at 1 has to be cut off last.
+/// Visibility that is clamped at 1 has to be clamped last.
 std::optional<std::string> lightenRefusal(const ShadowOptions& options)
 {
     const Soften soften = options.technique.soften;

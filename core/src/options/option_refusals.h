@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What cannot go together in one set of options.
+// Options that cannot go together.
 #ifndef GNOMON_CORE_OPTION_REFUSALS_H
 #define GNOMON_CORE_OPTION_REFUSALS_H
 

@@ -19,7 +19,7 @@ std::string textOf(double value)
 
 bool isInside(const OptionRow& row, double number)
 {
-    return number >= row.min && number <= row.max; // what is not a number is outside, too
+    return number >= row.min && number <= row.max; // NaN is outside, too
 }
 
 /// The number of a value that is outside of its row's range.

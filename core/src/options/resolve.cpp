@@ -12,7 +12,7 @@
 namespace gnomon {
 namespace {
 
-/// Of a filter that compares depths, such a texel has two of them, of 16 bits each.
+/// With a filter that compares depths, such a texel has two depths of 16 bits each.
 bool holdsTwoMaps(const FilterTraits& traits, MapFormat format)
 {
     return !traits.filterable && !traits.ids &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a technique is made of. A new option of a technique is one row here.
+// The options of a technique. A new one is one row here.
 #include "options/option_access.h"
 #include "options/option_rows.h"
 
@@ -51,7 +51,7 @@ bool isGaussian(const ShadowOptions& o)
     return isPcf(o) && kernelWidth(o.pcf.kernel) > 1;
 }
 
-/// What is said of a part of the bias ends the automatic one.
+/// Setting a part of the bias turns the automatic bias off.
 template <auto path>
 void setBias(ShadowOptions& options, const OptionValue& value)
 {

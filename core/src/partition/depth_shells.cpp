@@ -17,10 +17,10 @@ namespace {
 constexpr std::size_t kMostShells = 4;
 /// Two shells are one where that needs no more than so many times their texels: each is some passes.
 constexpr double kMergeCost = 1.3;
-/// What is nearer than all but so many of the points has no shell of its own. They may be guesses in a box around the
-/// eye, and so little of the picture may have texels that are too large.
+/// The share of the nearest points that get no shell of their own. They may be guesses in a box around the eye, and so
+/// small a part of the picture may have texels that are too large.
 constexpr double kFewPoints = 0.02;
-/// The shells of the frame before are kept while they need no more than so many times the texels of the best ones.
+/// The shells of the last frame are kept while they need no more than this many times the texels of the best ones.
 constexpr double kKeepCost = 1.6;
 
 int octaveOf(double depth)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a light's receivers wants texels of like size: of a sun's what is seen at like depths of the camera, of a
-// lamp's what is seen at like depths of the camera for its depth from the lamp (ViewSlice).
+// Divides a light's receivers into shells that want texels of about one size: for a sun by the camera's depth, for a
+// lamp by the camera's depth over the depth from the lamp (ViewSlice).
 #pragma once
 
 #include "auto/sight.h"
@@ -15,7 +15,7 @@
 
 namespace gnomon {
 
-/// What some of the points of a light have in common: their rectangle across the light, and how fine it must be.
+/// A group of a light's points: their rectangle across the light, and how fine it must be.
 struct ShellCell {
     LightRect rect;
     double density = 0.0; // pixels a unit of length of the rectangle
@@ -47,8 +47,8 @@ public:
         const CameraView& camera;
         std::span<const Slice> ways; // the directions among which the light is divided: one, or a cube's faces
         std::span<const SightPoint> points;
-        glm::dvec2 cell_px; // of the picture, that each of the points stands for
-        int widest = 0;     // of a shell but the last, octaves; 0: as wide as it pays
+        glm::dvec2 cell_px; // pixels that each of the points stands for
+        int widest = 0;     // widest shell except the last, octaves; 0: as wide as it pays
     };
 
     /// A shell for each octave that a lit point is in, those as one that cost little more so; one for everything where

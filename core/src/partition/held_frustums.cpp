@@ -79,8 +79,8 @@ void HeldFrustums::take(std::span<HeldFrustum> found, std::uint32_t frames)
         return !isThere(now, one) && overlaps(now, one.part);
     };
     if (frames > 0 && std::ranges::any_of(found, replaces)) {
-        // Of a place two maps at most are drawn. Where something has to change before its time, the one of the two goes
-        // at once that is seen less.
+        // At most two maps are drawn of a place. Where something has to change before its time, the less visible of the
+        // two goes at once.
         const bool begins = 2 * left <= frames;
         if (begins) {
             before.clear();

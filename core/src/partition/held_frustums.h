@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a light's frustums stays as it is from frame to frame, so that nothing swims or pops.
-// Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006: a frustum changes by whole-texel pans and steps of
-// size alone, and what changes all the same is cross-faded.
+// Keeps a light's frustums from frame to frame where it can, so that nothing swims or pops.
+// Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006: a frustum changes only by whole-texel pans and steps
+// of size, and any other change is cross-faded.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace gnomon {
 
 /// Which part of the world a frustum serves.
 struct FrustumPart {
-    int octave = 0; // of what ViewSlice counts: from 2^octave, or all that is less with kFromEye,
+    int octave = 0; // of the values in ViewSlice: from 2^octave, or all that is less with kFromEye,
     int end = 0;    // to 2^end, or without end with kToEnd
     std::uint32_t sector = 0;
 
@@ -25,9 +25,9 @@ inline constexpr int kToEnd = 63;
 /// One whose texels hold still.
 struct HeldFrustum {
     FrustumPart part;
-    int step = 0;           // its texels have a side of 2^(step / 4), as LightRect has it
-    std::uint32_t side = 0; // of its map, texels
-    double sum = 0.0;       // FacingTexels::sum_px: what its map is worth where room is scarce
+    int step = 0;           // its texels have a side of 2^(step / 4), in units of LightRect
+    std::uint32_t side = 0; // side of its map, texels
+    double sum = 0.0;       // FacingTexels::sum_px: the value of its map where room is scarce
     bool came = false;      // in place of others, which fade over into it
 };
 
@@ -38,7 +38,7 @@ struct HeldFrustum {
 /// while it `stays` for other reasons.
 [[nodiscard]] int stepFrom(std::optional<int> held, double size, double texels, bool stays);
 
-/// Of one light.
+/// The frustums of one light.
 struct HeldFrustums {
     std::vector<HeldFrustum> now;
     std::vector<HeldFrustum> before; // those that fade out

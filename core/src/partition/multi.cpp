@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Multi-frustum partitioning. A texel of a lamp's map is as large as it is far from the lamp, and a pixel as it is far
-// from the eye. So what a lamp lights is cut into shells of the one depth over the other, and what a sun lights into
-// shells of the camera's depth: what is in a shell wants like texels, to a factor of two. What the light sees all
-// around it is cut into the faces of a cube. Shells grow together where that costs few texels. Each frustum has a map
-// of the size that its part of the picture asks for.
+// from the eye. So receivers of a lamp are cut into shells of the camera's depth over the lamp's, and receivers of a
+// sun into shells of the camera's depth: receivers in one shell want the same texels, to a factor of two. A lamp's
+// surroundings are cut into the faces of a cube. Shells grow together where that costs few texels. Each frustum has a
+// map of the size that its part of the picture needs.
 // Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006.
-// Departures: receivers are cut where what they need halves, and not each given to one frustum, so that a floor needs
-// no pieces made by hand and nothing pops when an object goes from one to another; frustums fade into each other
-// instead. Texels are counted in those some hundred points that the camera probably sees (Sight).
+// Departures: receivers are cut where their need for texels halves, and not each given to one frustum, so that a floor
+// needs no pieces made by hand and nothing pops when an object goes from one to another; frustums fade into each other
+// instead. Texels are counted at some hundred points that the camera probably sees (Sight).
 #include "partition/multi.h"
 
 #include "light_reach.h"
@@ -31,10 +31,10 @@ constexpr double kKeepShells = 0.9;
 constexpr std::uint32_t kPatience_frames = 8;
 /// One frustum serves all of a shell if the light sees it within this half angle.
 constexpr double kWidestHalfAngle_rad = 0.87;
-/// Of a map of which nobody can tell how fine it should be.
+/// Side of a map whose wanted texels are not known.
 constexpr double kUnknownSide = 64.0;
 
-/// Keeps what is on the row's positive side. A row that is next to nothing has no sides that anyone could tell.
+/// Keeps the row's positive side. A row that is nearly zero has no side.
 void cutBy(const glm::dvec4& row, Slice& slice)
 {
     constexpr double kLeast = 1e-9;
@@ -71,7 +71,7 @@ Slice countedAlong(const Light& light, Slice way)
     return way;
 }
 
-/// Of its light: the same from frame to frame, wherever a frustum that is refitted in each frame ends.
+/// The id within its light: the same from frame to frame, wherever a frustum that is refitted in each frame ends.
 std::uint32_t idOf(const FrustumPart& part)
 {
     return static_cast<std::uint32_t>(part.octave - kFromEye) << 3U | part.sector;

@@ -20,16 +20,16 @@ namespace gnomon {
 
 /// One frustum of a light in one frame.
 struct GrownFrustum {
-    std::uint32_t id = 0; // of its light: the same from frame to frame for as long as it serves the same part
+    std::uint32_t id = 0; // within its light: the same from frame to frame as long as it serves the same part
     FrustumPart part;
     Slice slice;
     double size = 0.0;             // Prediction::size
-    double texel = 0.0;            // of gathered receivers: what its map comes to, as LightRect has it
+    double texel = 0.0;            // for gathered receivers: its map's texel, in units of LightRect
     double wanted = 0.0;           // texels on a side of its map
-    double sum = 0.0;              // FacingTexels::sum_px, of a map of the largest side
-    std::uint32_t side_before = 0; // of the frame before; 0: it was not there
-    std::uint32_t side = 0;        // that it gets
-    double strength = 0.0;         // of its warp, with fit auto
+    double sum = 0.0;              // FacingTexels::sum_px, for a map of the largest side
+    std::uint32_t side_before = 0; // side in the last frame; 0: it was not there
+    std::uint32_t side = 0;        // side that it gets
+    double strength = 0.0;         // strength of its warp, with fit auto
     bool fades_out = false;
     std::uint32_t first_receiver = 0; // see MultiPartition::receiversOf()
     std::uint32_t receiver_count = 0;
@@ -51,17 +51,17 @@ public:
     void follow(std::span<const Light> lights);
     /// Finds a light's frustums.
     void divide(const Input& input, std::size_t light, FrustumPlanner& frustums);
-    // Of a light that takes turns (ShadowOptions::draw_budget_texels), after divide():
+    // For a light that takes turns (ShadowOptions::draw_budget_texels), after divide():
 
     /// Its frustums, or the sides of their maps, are not those of the last time.
     [[nodiscard]] bool differs(std::size_t light) const;
-    /// It is as if it had not been divided in this frame: what it remembers, and given the input its frustums too.
+    /// Undoes this frame's division: restores its memory, and with the input its frustums too.
     void restoreMemory(std::size_t light);
     void restoreFrustums(const Input& input, std::size_t light);
     /// In the order in which they fade over into each other: near ones first, what fades out before what comes in its
     /// place, then by direction. Those of gathered receivers: finest first. Holds until the next divide().
     [[nodiscard]] std::span<const GrownFrustum> frustumsOf(std::size_t light) const;
-    /// Of the receivers that were given, those that a frustum may serve.
+    /// The given receivers that a frustum may serve.
     [[nodiscard]] std::span<const std::uint32_t> receiversOf(const GrownFrustum& frustum) const
     {
         return std::span(receivers_).subspan(frustum.first_receiver, frustum.receiver_count);
@@ -83,7 +83,7 @@ private:
         std::vector<ReceiverCone> cones;         // and gathered receivers
         std::vector<ReceiverHome> homes;
         std::uint32_t next_cone = 1;    // ReceiverCone::id of the next one that is held
-        std::vector<GrownFrustum> last; // of a light that takes turns: what divide() came to
+        std::vector<GrownFrustum> last; // for a light that takes turns: the result of divide()
     };
     [[nodiscard]] static std::uint32_t largestSide(const Input& input);
     [[nodiscard]] static bool takesTurns(const Input& input) { return input.recipe.takesTurns(); }
@@ -119,18 +119,18 @@ private:
     std::vector<Memory> memories_; // by row
     std::vector<Memory> before_;   // as they were before this frame, of lights that take turns
     std::vector<std::uint64_t> keys_;
-    std::vector<Range> ranges_; // of frustums_, by light
+    std::vector<Range> ranges_; // ranges of frustums_, by light
     std::vector<GrownFrustum> frustums_;
     std::vector<std::uint32_t> receivers_;
     // Scratch.
-    std::vector<Slice> ways_; // of the light that is being divided
-    bool aimed_ = false;      // one that follows what is seen
+    std::vector<Slice> ways_; // the light that is being divided
+    bool aimed_ = false;      // it follows what is seen
     TexelShares shares_;
     std::vector<TexelClaim> claims_;
     DepthShells shells_;
     std::vector<HeldFrustum> found_;
     ReceiverCones cones_;
-    std::span<ReceiverCone> gathered_; // of the light that is being divided
+    std::span<ReceiverCone> gathered_; // the light that is being divided
     ConvexBody body_;
 };
 

@@ -251,7 +251,7 @@ LightCone ReceiverCones::coneAround(const Input& input, std::span<const glm::dve
             centre = length > 0.0 ? centre / length : seen_.front();
         }
         const glm::dvec3 farthest = *std::ranges::max_element(seen_, {}, [&](const glm::dvec3& p) {
-            return glm::dot(p - centre, p - centre); // of unit directions the larger, the larger the angle
+            return glm::dot(p - centre, p - centre); // for unit directions it grows with the angle
         });
         const double radius = between(light, centre, farthest);
         best = radius < best.radius ? LightCone{centre, radius} : best;

@@ -25,7 +25,7 @@ inline constexpr double kWidestTangent = 1.7320508;
 
 /// A frustum around some receivers.
 struct ReceiverCone {
-    std::uint32_t id = 0;     // of its light: the same from frame to frame
+    std::uint32_t id = 0;     // within its light: the same from frame to frame
     LightCone cone;           // around its receivers
     LightRect rect;           // around them, across the cone's axis
     double texel = 0.0;       // as LightRect has it: the largest that is fine enough for all of them
@@ -36,7 +36,7 @@ struct ReceiverCone {
     int promised = 0;         // with motion snap: the step (texelOfStep()) of `texel`
     int step = 0;             // and of the texels that it is drawn with, which are no finer
     double opacity = 1.0;     // ViewServes::faded_in
-    std::uint32_t side = 0;   // of its map, texels
+    std::uint32_t side = 0;   // side of its map, texels
     double sum = 0.0;         // FacingTexels::sum_px
 };
 
@@ -57,8 +57,8 @@ public:
         double pixel_m = 0.0;                     // side of a pixel 1 m before a perspective camera, else anywhere
         double texels_per_pixel = 1.0;
         double most_times = 4.0;     // a texel is no more than so many times finer than one of its receivers wants
-        double largest_texels = 0.0; // on a side of what a map may show
-        double blend = 0.0;          // of half the width of joined receivers: by how much their frustums are wider
+        double largest_texels = 0.0; // texels on a side of the largest map
+        double blend = 0.0;          // how much wider frustums of joined receivers are, share of half their width
         bool steady = false;
     };
     /// Near receivers first, each is put into the cone that it was in, else the first that suits it, else the one that
@@ -73,9 +73,9 @@ private:
     /// A receiver, or a part of one that is too large for one frustum, as far as camera and light see it.
     struct Piece {
         std::uint32_t object = 0;
-        std::uint32_t number = 0; // of the object's pieces, from 1 on; 0: it is whole
-        double depth_m = 0.0;     // of its nearest point from the eye
-        double texel = 0.0;       // the largest that is fine enough for all of it
+        std::uint32_t number = 0; // piece of the object, from 1 on; 0: it is whole
+        double depth_m = 0.0;     // distance of its nearest point from the eye
+        double texel = 0.0;       // the largest texel that is fine enough for all of it
         LightCone cone;
         std::uint32_t first_point = 0;
         std::uint32_t point_count = 0;

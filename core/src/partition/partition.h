@@ -13,13 +13,13 @@ namespace gnomon {
 
 /// The part of the world that one frustum of a light serves.
 struct Slice {
-    glm::dvec3 axis_ws{0.0, -1.0, 0.0}; // of the frustum, unit
+    glm::dvec3 axis_ws{0.0, -1.0, 0.0}; // the frustum's axis, unit
     double half_angle_rad = 0.0;        // lights with a place: the frustum is a square pyramid around the axis
-    double near_share = 1.0;            // of the light's near distance: where the pyramid begins, along its axis
+    double near_share = 1.0;            // where the pyramid begins along its axis, share of the light's near distance
     std::array<Plane, 8> cut;           // inward; receivers outside belong to another slice
     std::uint32_t cut_count = 0;
-    ViewSlice depth;       // of the camera that it serves
-    ViewSector sector;     // of the light's directions
+    ViewSlice depth;       // the camera's depths that it serves
+    ViewSector sector;     // the light's directions that it serves
     glm::dvec3 up_ws{0.0}; // unit, across axis_ws: the map's way up; 0: the light's own
     /// Side of the texels of a map that holds still and shows no more than what is seen, as LightRect has it. 0: the
     /// motion finds it.
@@ -46,7 +46,7 @@ struct PartitionTraits {
     bool measures = false; // it needs CameraView::near_m and far_m
     /// Each of its slices is a base map, to be listed once for each cascade that the GPU fits to a part of it.
     bool fits_on_gpu = false;
-    std::uint32_t maps = 0; // of a light; 0: one for each of CascadeOptions::count
+    std::uint32_t maps = 0; // maps of a light; 0: one for each of CascadeOptions::count
     /// Its slices depend on what is seen: MultiPartition, and no `divide`.
     bool grows = false;
 };

@@ -17,7 +17,7 @@ namespace gnomon {
 struct LightFrustum {
     Slice slice;
     std::span<const std::uint32_t> receivers;
-    double strength = 1.0;          // of the warp, with fit auto
+    double strength = 1.0;          // strength of the warp, with fit auto
     std::uint32_t tenant = 0;       // whose maps it has: index of Frustums::keys()
     std::uint32_t number = 0;       // which of them
     std::uint32_t wanted_side = 0;  // texels for which slice.texel counts; 0: for as many as the map gets

@@ -301,7 +301,7 @@ void Schedule::draw(const Results& results)
         View& view = results.plan.views[i];
         const ViewMap& map = results.maps[i];
         if (map.place == nullptr) {
-            continue; // of a light that waits
+            continue; // its light waits
         }
         if (view.projection.gpu_cascade != kNoIndex) {
             results.store.drawAnew(view);

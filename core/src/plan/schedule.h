@@ -77,7 +77,7 @@ private:
         LightType type = LightType::directional;
         std::uint32_t options = 0;
         std::uint32_t map_size = 0;
-        std::uint32_t first_view = 0; // of views_
+        std::uint32_t first_view = 0; // index into views_
         std::uint32_t view_count = 0; // 0: it had none, or does not take turns
         std::uint32_t waited = 0;
         std::uint64_t texels = 0; // that had to be drawn for it, or were thought to
@@ -117,17 +117,17 @@ private:
     bool takes_turns_ = false; // some lights: their options bound what is drawn in a frame
     LightRows rows_;
     std::vector<LightBefore> before_; // by row
-    std::vector<View> views_;         // of the plan before
+    std::vector<View> views_;         // views of the plan before
     std::vector<std::uint32_t> casters_;
     std::uint64_t objects_ = 0;   // ObjectSet::identity()
-    std::vector<Turn> lights_;    // of the frame
+    std::vector<Turn> lights_;    // the frame's lights
     std::vector<WideSight> wide_; // by options
     // By MapId::index, of cascades that take turns by themselves: what a map was planned for, and what it would be now.
     std::vector<ViewGround> grounds_;
     std::vector<ViewGround> next_grounds_;
     // Scratch.
     std::vector<std::uint64_t> keys_;
-    Region seen_; // of a cascade, without room
+    Region seen_; // what a cascade sees, without room
     DrawTurns order_;
     std::vector<DrawTurn> claims_;
     std::vector<View> next_views_;

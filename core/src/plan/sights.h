@@ -36,7 +36,7 @@ struct Setup {
 
 /// One light in a frame, and what it shines on. The rest that is known of it is in its LightPlan.
 struct LightSight {
-    std::uint32_t first_receiver = 0; // of those in reach, of a light that has a reach
+    std::uint32_t first_receiver = 0; // index of its first receiver in reach, for a light that has a reach
     std::uint32_t receiver_count = 0;
     std::uint32_t earlier_slot = 0; // which of its maps the earlier position of a stepping sun has
     LightSample sample;             // from which point of a light whose mask is a mean over frames it is seen

@@ -30,11 +30,11 @@ ConvergeSample convergeSample(std::uint64_t frame)
     constexpr double kPixel[] = {0.23606797749978969, 0.6457513110645906}; // sqrt(5), sqrt(7)
     ConvergeSample sample;
     const double turns = static_cast<double>(frame) * kArea;
-    const double area = turns - std::floor(turns); // of the disc, within the point's radius: 0 at first
+    const double area = turns - std::floor(turns); // area of the disc within the point's radius: 0 at first
     const double radius = std::sqrt(area);
     const double angle = 2.0 * std::numbers::pi * stepped(frame, kTurn);
-    // What is even over the sphere in four dimensions is even over the disc in any two of them (Archimedes' theorem,
-    // two dimensions up).
+    // Points that are evenly spread over the sphere in four dimensions are even over the disc in any two of them
+    // (Archimedes' theorem, two dimensions up).
     const double depth = std::sqrt(1.0 - area) * std::sin(2.0 * std::numbers::pi * stepped(frame, kDepth));
     sample.light = {radius * std::cos(angle), radius * std::sin(angle), depth};
     sample.grid_texels = {stepped(frame, kGrid[0]), stepped(frame, kGrid[1])};

@@ -50,7 +50,7 @@ bool MovedBoxes::follow(const ObjectSet& objects, std::vector<Aabb>& moved_ws)
             if (i < changes.size() && changes[i] <= version_) {
                 continue;
             }
-            // What moved less than its own size sweeps one box.
+            // An object that moved less than its own size sweeps one box.
             const Aabb swept = merge(bounds_[i], here);
             if (!bounds_[i].empty() && !here.empty() && girth(swept) <= 2.0 * girth(here)) {
                 add(swept, moved_ws);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moved between two frames, as a few boxes.
+// Boxes around all objects that moved between two frames.
 #pragma once
 
 #include <gnomon/object_set.h>

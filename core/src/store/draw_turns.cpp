@@ -6,7 +6,7 @@
 namespace gnomon {
 namespace {
 
-/// What is in nobody's sight is drawn last, and after those that waited longer.
+/// Maps that nobody sees are drawn last, and after those that waited longer.
 constexpr double kLeastShare = 1e-6;
 
 double owedTo(const DrawTurn& turn)

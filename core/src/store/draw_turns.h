@@ -19,14 +19,14 @@ struct DrawTurn {
     double share = 0.0;            // that the picture owes to it, >= 0
     std::uint64_t texels = 0;      // that have to be drawn for it; 0: it has nothing to wait for
     std::uint32_t waited = 0;      // frames before this one in which its turn did not come
-    bool may_wait = false;         // false: it is drawn, whatever that takes
-    bool drawn = false;            // what it comes to
-    std::uint32_t view = kNoIndex; // of Plan::views; kNoIndex: it is of all the light's maps
+    bool may_wait = false;         // false: it is drawn at any cost
+    bool drawn = false;            // the result
+    std::uint32_t view = kNoIndex; // index into Plan::views; kNoIndex: the turn is for all the light's maps
 };
 
-/// First come those that cannot wait, or have waited for the longest time that there is; then by share times frames,
-/// the first of them in any case where nobody was drawn yet, the others if what they take is left of the budget. Of two
-/// that are owed alike the first light comes first. Takes n log n steps, and nothing from the heap once warm.
+/// First come turns that cannot wait, or have waited as long as they may. The others follow by share times frames: the
+/// first of them in any case where none was drawn yet, the rest if the budget has room. Among equals the first light
+/// comes first. Takes n log n steps, and nothing from the heap once warm.
 class DrawTurns {
 public:
     void take(std::span<DrawTurn> turns, std::uint64_t budget_texels, std::uint32_t longest_wait);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the texels of a map hold, as one value.
+// The contents of a map's texels, as one value.
 #pragma once
 
 #include <gnomon/object_set.h>
@@ -11,7 +11,7 @@
 
 namespace gnomon {
 
-/// What of a view its texels depend on, besides the casters.
+/// The part of a view that its texels depend on, besides the casters.
 struct MapProjection {
     glm::dmat4 clip_from_world{1.0};
     glm::dvec4 metric_ws{0.0};
@@ -32,8 +32,8 @@ struct Mover {
 
 struct MapContents {
     MapProjection projection;
-    std::uint64_t version = 0;        // of the object set when it was drawn
-    std::vector<std::uint32_t> still; // casters, ascending; of a map that is drawn all at once, all of them
+    std::uint64_t version = 0;        // the object set's version when it was drawn
+    std::vector<std::uint32_t> still; // casters, ascending; all of them for a map that is drawn all at once
     std::vector<Mover> moving;        // those that were drawn over a kept copy of `still`; ascending
 
     /// Would drawing these casters now give the same, but for `moving`? `changes` are ObjectSet::allChanges().

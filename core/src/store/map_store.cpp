@@ -151,7 +151,7 @@ bool MapStore::takeKept(Room& room)
     return true;
 }
 
-/// Of a light that is gone or wants something else. Keeps its memory.
+/// Clears the room of a light that is gone or wants other maps. Keeps its memory.
 void MapStore::clear(Room& room)
 {
     for (const MapPlace& place : room.places) {

@@ -54,18 +54,18 @@ public:
 
     /// The lights of a frame, by key. Those that are gone give up their maps.
     void follow(const ObjectSet& objects, std::span<const std::uint64_t> keys);
-    /// What a light wanted in the frame before; after follow().
+    /// The wish of a light in the last frame; after follow().
     [[nodiscard]] const MapWish& wishBefore(std::size_t light) const { return rooms_[rows_.rowOf(light)].wish; }
-    /// Squares are what there is to share: a page is a whole one and has 4^level of a level.
+    /// The squares that maps share: a page is one whole square and has 4^level of a level.
     [[nodiscard]] const PageSquares& squaresOf(std::uint32_t options) const { return pages_[options].maps; }
-    /// What each wants. Where the squares that are left are too small, maps are smaller than is wanted, down to
+    /// Gives each light its wish. Where the squares that are left are too small, maps are smaller than wanted, down to
     /// kSmallestMap.
     void furnish(std::span<const MapWish> wishes);
     /// False: it wants no map, or there is no room for it.
     [[nodiscard]] bool hasRoom(std::size_t light) const { return !rooms_[rows_.rowOf(light)].places.empty(); }
-    /// Of each of its maps. Precondition: hasRoom().
+    /// The side of each of its maps. Precondition: hasRoom().
     [[nodiscard]] std::uint32_t sideOf(std::size_t light) const { return rooms_[rows_.rowOf(light)].side; }
-    /// Of a frustum of a light at one of its positions (0 or 1). Precondition: hasRoom().
+    /// The map of a light's frustum at one of its positions (0 or 1). Precondition: hasRoom().
     [[nodiscard]] const MapPlace& placeOf(std::size_t light, std::uint32_t position, std::uint32_t frustum) const
     {
         const Room& room = rooms_[rows_.rowOf(light)];
@@ -92,17 +92,17 @@ public:
 private:
     struct Map {
         std::uint32_t generation = 0;
-        ContentNumber number = 0; // of `contents`; 0: it holds nothing
+        ContentNumber number = 0; // number of `contents`; 0: it holds nothing
         MapContents contents;
     };
     struct Pages {
         PageSquares maps;
         PageSquares kept;
     };
-    /// What a light has.
+    /// The maps of a light.
     struct Room {
         MapWish wish;
-        std::uint32_t side = 0;       // of its maps; may be less than is wanted
+        std::uint32_t side = 0;       // side of its maps; may be less than wanted
         std::uint64_t looked_at = 0;  // `given_up_` when it found no better
         std::vector<MapPlace> places; // position after position, of each its frustums
         std::vector<PageSquare> squares;

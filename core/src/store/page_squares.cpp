@@ -79,7 +79,7 @@ bool PageSquares::measure(std::uint32_t level, std::uint32_t count, Run& run) co
     return true;
 }
 
-// Of a run's free squares the smallest one lies within the same place of all others, so its first corner will do too.
+// The smallest of a run's free squares lies within the same place of all others, so its first corner fits too.
 bool PageSquares::findRun(std::uint32_t level, std::uint32_t count, Run& best) const
 {
     best = {0, 0, pages_, 0};

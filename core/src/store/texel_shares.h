@@ -14,14 +14,14 @@ inline constexpr std::uint32_t kSmallestMap = 16;
 /// A side that is so little too small is good enough.
 inline constexpr double kTooSmallSide = 1.05;
 
-/// What one or several maps of one side ask for, and get.
+/// The texels that one or several maps of one side ask for, and get.
 struct TexelClaim {
     double weight = 0.0;                   // > 0: the error of the picture, times the side
     double wanted = 0.0;                   // texels on a side: all have as many before one has more
-    double useful = 0.0;                   // beyond so many nothing is gained; less than wanted: it wants no more
+    double useful = 0.0;                   // texels beyond which nothing is gained; less than wanted: it wants no more
     std::uint32_t largest = 0;             // side that it may have at most; what it gets is this, halved some times
     std::uint32_t smallest = kSmallestMap; // and is not less than this, if that is not
-    std::uint32_t maps = 1;                // of that side each
+    std::uint32_t maps = 1;                // number of maps of that side
     std::uint32_t before = 0;              // side that it got in the frame before; 0: it was not there
     double staying = 1.3;   // so much more that counts than another one, because another one is a map drawn anew
     std::uint32_t side = 0; // that it gets

@@ -7,25 +7,25 @@
 #include "names_begin.glsl"
 #include "shared/smooth_surface.h"
 
-// One output more of your vertex shader, beside the vertex's normal and its position relative to the eye, both in the
-// world's axes; normals have about the same length at all vertices of a triangle. `creased`: the normal leans far (we
-// say 40 degrees) from that of some triangle at the vertex, as where a box's corners are shaded smoothly. Such triangles
-// stay flat, or walls that face away would be lit.
+// An additional output of the vertex shader, made from the vertex's normal and its position relative to the eye, both
+// in the world's axes; normals have about the same length at all vertices of a triangle. `creased`: the normal leans by
+// more than some 40 degrees from that of a triangle at the vertex, as where a box's corners are shaded smoothly. Such
+// triangles stay flat, or walls that face away would be lit.
 float gnomonSmoothPlane(vec3 normal, vec3 point, bool creased)
 {
     return smoothPlane(normal, point, creased);
 }
 
 // `point` relative to the camera's eye, metres; `normal` the triangle's unit geometric normal, towards the eye;
-// `interpolated`: the vertices' normals (xyz) and that output (w). Gives the smooth surface's unit normal (xyz), and how
-// far along it the surface is over the point, metres (w; -1: there is none). A normal map plays no part in it.
+// `interpolated`: the vertices' normals (xyz) and that output (w). Returns the smooth surface's unit normal (xyz), and
+// how far along it the surface is over the point, metres (w; -1: there is none). A normal map plays no part in it.
 vec4 gnomonSmoothSurface(vec3 point, vec3 normal, vec4 interpolated)
 {
     SmoothSurface s = smoothSurface(point, normal, interpolated.xyz, interpolated.w);
     return vec4(s.n, s.lift);
 }
 
-// What MaskInputs::smooth holds of it, each in [-1, 1].
+// The texel of MaskInputs::smooth for this surface, each number in [-1, 1].
 vec3 gnomonSmoothEncode(vec4 smooth_surface, vec3 point)
 {
     return smoothEncode(SmoothSurface(smooth_surface.xyz, smooth_surface.w), point);

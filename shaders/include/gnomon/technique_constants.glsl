@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// GLSL only: for a pass that is made for one technique. What its options decide comes as specialization constants, whose
-// values pack::techniqueConstants() gives, so that a driver compiles what the technique needs and nothing else.
-// Include it before visibility.glsl.
+// GLSL only: for a pass that is made for one technique. The technique's options become specialization constants, whose
+// values pack::techniqueConstants() gives, so that a driver compiles only the code that the technique needs. Include it
+// before visibility.glsl.
 //
 // Define beforehand, if the default does not suit:
 //   GNOMON_CONSTANT_ID  the first of nine constant_ids (0)
@@ -19,11 +19,12 @@ layout(constant_id = GNOMON_CONSTANT_ID + 1) const int gnomon_disc_taps = 16;
 layout(constant_id = GNOMON_CONSTANT_ID + 2) const bool gnomon_automatic_bias = true;
 layout(constant_id = GNOMON_CONSTANT_ID + 3) const int gnomon_moment_flags = 0;    // see MomentRule
 layout(constant_id = GNOMON_CONSTANT_ID + 4) const int gnomon_moment_sampling = 0; // gnomon::MapSampling
-layout(constant_id = GNOMON_CONSTANT_ID + 5) const int gnomon_moment_layers = 2;   // of lvsm
+layout(constant_id = GNOMON_CONSTANT_ID + 5) const int gnomon_moment_layers = 2;   // layers of lvsm
 layout(constant_id = GNOMON_CONSTANT_ID + 6) const int gnomon_depth_holding = 0;   // see gnomon/shared/paired_depth.h
 layout(constant_id = GNOMON_CONSTANT_ID + 7) const uint gnomon_few_view_count = 0; // how many views its one light has; 0: any number of lights and views
 
-layout(constant_id = GNOMON_CONSTANT_ID + 8) const int gnomon_filter = 1; // of choice_numbers.h; with GNOMON_FILTER nothing reads it
+layout(constant_id = GNOMON_CONSTANT_ID + 8) const int gnomon_filter = 1; // a number of choice_numbers.h; not read with
+                                                                          // GNOMON_FILTER
 
 #define GNOMON_FILTER_NUMBER gnomon_filter
 #define GNOMON_KERNEL_WIDTH gnomon_kernel_width

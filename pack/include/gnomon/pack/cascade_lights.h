@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the passes of Partition::sdsm are given, which fit cascades to the camera's depth buffer. A host whose own code
+// Inputs of the passes of Partition::sdsm, which fit cascades to the camera's depth buffer. A host whose own code
 // dispatches them (door 3) does so in this order, with barriers between them; all shaders lie in shaders/passes, and
-// bindings are of set 0:
+// all bindings are in set 0:
 //   keys cleared to 0
 //   cascade_depth.comp, cascade_bounds.comp   (groups over the screen, groupsOver(), 1 along z for each light)
 //   cascade_finish.comp                       (1, 1, lights)
@@ -24,13 +24,13 @@ namespace gnomon::pack {
 
 /// Lights of the plan that are fitted on the GPU.
 [[nodiscard]] GNOMON_API std::uint32_t cascadeLightCount(const Plan& plan);
-/// One for each of them, in the plan's order. `screen_px`: size of the depth buffer. Returns how many it wrote.
-/// Throws Error where there is no room for them.
+/// Writes one entry for each of these lights, in the plan's order. `screen_px`: size of the depth buffer. Returns how
+/// many it wrote. Throws Error where there is no room for them.
 GNOMON_API std::uint32_t fillCascadeLights(const Plan& plan, glm::uvec2 screen_px,
                                            std::span<shared::GpuCascadeLight> out);
 /// Groups of the passes that look at pixels.
 [[nodiscard]] GNOMON_API glm::uvec2 groupsOver(glm::uvec2 screen_px);
-/// What was found, as the planner's side has it: viewAsFitted().
+/// Converts the fit that the GPU found for viewAsFitted().
 [[nodiscard]] GNOMON_API FittedView describeFitted(const shared::GpuFittedView& gpu);
 
 } // namespace gnomon::pack

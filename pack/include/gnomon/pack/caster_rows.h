@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What takes an object's own points to a map, for vertex shaders as gnomon/caster.glsl has them.
+// Rows that take an object's own points to a map, for vertex shaders with gnomon/caster.glsl.
 #pragma once
 
 #include <gnomon/export.h>
@@ -19,41 +19,41 @@ struct Rows3x4 {
     glm::vec4 z{0.0F, 0.0F, 1.0F, 0.0F}; // row of z
 };
 
-/// Rows of a view that an instance brings: x, y and the metric; of any other view x, y, z, w and the metric. Of a
-/// paraboloid only the last number of w and of the metric counts (ViewProjection::paraboloid).
+/// The number of rows in an instance's data: x, y and the metric for an orthographic view; x, y, z, w and the metric
+/// for any other. For a paraboloid only the last number of w and of the metric counts (ViewProjection::paraboloid).
 [[nodiscard]] constexpr std::uint32_t casterRowCount(bool orthographic)
 {
     return orthographic ? 3 : 5;
 }
 
-/// Of one view, to be composed with the transforms of many objects.
+/// The rows of one view, to be composed with the transforms of many objects.
 class GNOMON_API CasterRows {
 public:
     CasterRows() = default;
     /// The rows of this view; it need not outlive the call.
     explicit CasterRows(const View& view);
     /// Writes casterRowCount() rows, each the view's times the object's transform, composed in double precision:
-    /// objects may be as far from the world's origin as they like. Depth is `bias_m` metres, as DepthMetric has them,
-    /// farther from the light. Returns one past the last.
+    /// objects may be at any distance from the world's origin. Depth is moved `bias_m` metres (DepthMetric's) away from
+    /// the light. Returns one past the last.
     glm::vec4* write(const Rows3x4& world_from_object, glm::vec4* out, double bias_m = 0.0) const;
 
 private:
     std::array<glm::dvec4, casterRowCount(false)> rows_{};
     std::uint32_t count_ = 0;
-    double per_metre_ = 0.0; // of the metric
+    double per_metre_ = 0.0; // growth of the metric per metre
 };
 
-/// What a caster writes to a map of filter id or depth-id, with gnomonCasterIdTexel() (caster.glsl); with
-/// IdOf::face of gnomonCasterPieceId().
+/// The inputs of gnomonCasterIdTexel() (caster.glsl), by which a caster writes to a map of filter id or depth-id; with
+/// IdOf::face also of gnomonCasterPieceId().
 struct CasterId {
     /// Takes a point of the world to the depth that goes beside the id, 0 .. 1: IdDepth.
     glm::dvec4 depth_ws{0.0};
-    float id = 0.0F;  // as it is stored, 0 .. 1; with IdOf::face that of the object's first piece
-    float ids = 1.0F; // how many there are besides 0
+    float id = 0.0F;  // as stored, 0 .. 1; with IdOf::face the id of the object's first piece
+    float ids = 1.0F; // the number of ids besides 0
 };
-/// Of an object of the plan, in a view of a light that has ids (Plan::object_ids).
+/// The id of an object of the plan, in a view of a light that has ids (Plan::object_ids).
 [[nodiscard]] GNOMON_API CasterId casterIdOf(const Plan& plan, const View& view, std::uint32_t object);
-/// A row for the object's own points instead of the world's.
+/// Turns a row for points of the world into one for the object's own points.
 [[nodiscard]] GNOMON_API glm::vec4 composedRow(const glm::dvec4& row_ws, const Rows3x4& world_from_object);
 
 } // namespace gnomon::pack

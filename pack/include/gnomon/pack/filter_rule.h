@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a light's options to the numbers that its maps are made and read by. What options leave open is filled in here.
+// Turns a light's options into the numbers that its maps are made and read with. Options that were left open are filled
+// in here.
 #pragma once
 
 #include <gnomon/export.h>
@@ -19,44 +20,45 @@ namespace gnomon::pack {
 /// Bound on the error of a depth that such a map stores, in units of ViewProjection::metric: storage and the single
 /// precision that led to it. The automatic bias takes it into account.
 [[nodiscard]] GNOMON_API float depthQuantum(MapFormat format);
-/// How a texel of a map holds depths: a kDepth constant of gnomon/shared/paired_depth.h. That of a filterable map holds
-/// other things: kDepthAlone.
+/// How a texel of a map holds depths: a kDepth constant of gnomon/shared/paired_depth.h. It is kDepthAlone for a
+/// filterable map.
 [[nodiscard]] GNOMON_API int depthHolding(const ResolvedOptions& options);
-/// For gnomon/lib/encoders.glsl and the filters that read what they wrote. Precondition: options.filterable().
+/// The rule for gnomon/lib/encoders.glsl and the filters that read those texels. Precondition: options.filterable().
 [[nodiscard]] GNOMON_API shared::MomentRule momentRuleOf(const ResolvedOptions& options);
-/// Of filters that compare depths what their maps hold of it (DepthMetricKind) alone; of filterable ones the above.
+/// The rule for reading maps: momentRuleOf() for filterable filters; for filters that compare depths only the
+/// DepthMetricKind of their maps is set.
 [[nodiscard]] GNOMON_API shared::MomentRule readingRuleOf(const ResolvedOptions& options);
 /// The filter that reads these maps: pcf beside smoothies, else the options' own.
 [[nodiscard]] GNOMON_API Filter readingFilter(const ResolvedOptions& options);
-/// What filters id and depth-id go by.
+/// The rule of filters id and depth-id.
 [[nodiscard]] GNOMON_API shared::IdRule idRuleOf(const ResolvedOptions& options);
 
-/// How exactly casters are drawn and receivers are known: the automatic bias allows for what is lost.
+/// How exactly casters are drawn and receivers are known. The automatic bias covers these errors.
 struct DrawPrecision {
-    /// Bits of a pixel by which the device that draws places vertices (VkPhysicalDeviceLimits::subPixelPrecisionBits,
-    /// GL_SUBPIXEL_BITS; 8 in Direct3D), 4 to 24; beyond, the nearer of these counts. The default is as many as
-    /// Vulkan and OpenGL promise.
+    /// Sub-pixel bits with which the device places vertices (VkPhysicalDeviceLimits::subPixelPrecisionBits,
+    /// GL_SUBPIXEL_BITS; 8 in Direct3D), 4 to 24; other values are clamped. The default is the least that Vulkan and
+    /// OpenGL promise.
     std::uint32_t sub_pixel_bits = 4;
     /// Receivers' points come from a depth buffer that the same device has drawn, or from gl_FragCoord.z; false: a
     /// shading pass interpolates them, or they come from rays.
     bool receivers_from_depth = true;
-    /// Half a step of that depth buffer, 0 to 0.01: 2^-17 of 16 bits, 2^-25 of 24 bits, and of floats where 1 is far
-    /// (Camera::reversed_z false); 0 of floats where 0 is far.
+    /// Half a step of that depth buffer, 0 to 0.01: 2^-17 for 16 bits, 2^-25 for 24 bits and for floats where 1 is far
+    /// (Camera::reversed_z false); 0 for floats where 0 is far.
     float depth_rounding = 0x1p-25F;
-    /// Bound on the error of receivers' geometric normals, radians, 0 to 0.2: normalError() of how they are stored, or
+    /// Bound on the error of receivers' geometric normals, radians, 0 to 0.2: normalError() of their format, or
     /// normalErrorFromDepth().
     float normal_error_rad = 2e-4F;
 };
 
-/// In radians, for normals stored octahedrally (gnomon/shared/octahedral.h) in two numbers of [-1, 1], each off by at
-/// most `rounding`: 2^-16 of 16-bit integers, 2^-8 of 8-bit ones, 2^-11 of 16-bit floats, 0 of 32-bit ones. Integers
-/// are taken to be rounded to the nearest, as Direct3D asks of every device; Vulkan leaves open how floats are.
+/// The error in radians of normals stored octahedrally (gnomon/shared/octahedral.h) in two numbers of [-1, 1], each off
+/// by at most `rounding`: 2^-16 for 16-bit integers, 2^-8 for 8-bit ones, 2^-11 for 16-bit floats, 0 for 32-bit ones.
+/// Integers are assumed to be rounded to the nearest, as Direct3D requires; Vulkan leaves the rounding of floats open.
 [[nodiscard]] GNOMON_API float normalError(float rounding);
-/// In radians, for normals that are found by differences of a depth buffer.
+/// The error in radians of normals that are found by differences of a depth buffer.
 [[nodiscard]] GNOMON_API float normalErrorFromDepth(std::uint32_t sub_pixel_bits);
 
-/// All that a filter reads besides the view and the map. GpuRule::disc.zw, one over the size of the maps' image, is
-/// left 0: fillConstants() fills it in. Precondition: the members of `precision` are in their ranges.
+/// Fills in all that a filter reads besides the view and the map. GpuRule::disc.zw, one over the size of the maps'
+/// image, is left 0: fillConstants() fills it in. Precondition: the members of `precision` are in their ranges.
 GNOMON_API void fillRule(const ResolvedOptions& options, const DrawPrecision& precision, shared::GpuRule& out);
 /// The weights of a filterable map's blur, normalised in double precision: those of all texels add up to 1.
 /// Precondition: blurRadius(options) > 0.
@@ -73,11 +75,11 @@ GNOMON_API void fillRule(const ResolvedOptions& options, const DrawPrecision& pr
 /// Levels of the blocks of maps of this size (gnomon/shared/map_blocks.h), at least 1.
 [[nodiscard]] GNOMON_API std::uint32_t blockLevels(const glm::uvec2& size_px);
 
-/// The depth that a texel of a map stands for, for people to look at: in [0, 1] of what the map measures depth in. Of a
-/// filterable map it is the mean of what was averaged; of esm and evsm (in the warp of c+) the depth whose exponential
-/// is the mean of exponentials, of lvsm the mean in its first layer's own metric. `texel`: the channels of the format,
-/// in their order. `part`: of a texel that two maps share. What holds no such number gives one that is not in [0, 1],
-/// or none.
+/// The depth that a texel of a map stands for, to be looked at: in [0, 1] of the map's metric. For a filterable map it
+/// is the mean of the averaged depths. For esm and evsm (in the warp of c+) it is the depth whose exponential is the
+/// mean of exponentials, and for lvsm the mean in the first layer's own metric. `texel`: the channels of the format, in
+/// their order. `part`: the half of a texel that two maps share. A texel that holds no depth gives a number outside of
+/// [0, 1], or NaN.
 [[nodiscard]] GNOMON_API float mapDepth(const ResolvedOptions& options, std::span<const float> texel,
                                         TexelPart part = TexelPart::whole);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What there is to do for a plan, in order. The Vulkan backend executes this list; another API's would, too.
+// The passes that a plan needs, in order. The Vulkan backend executes this list; a backend of another API can too.
 #pragma once
 
 #include <gnomon/export.h>
@@ -10,29 +10,30 @@
 
 namespace gnomon::pack {
 
-/// What is to be done.
+/// The kind of a pass.
 enum class FramePassKind : std::uint8_t {
-    bounds,  // fit views with ViewProjection::gpu_cascade to the camera's depth: cascade_lights.h
-    maps,    // draw the maps of `options`, if there are any; of a filterable filter also make moments, blur, mip levels
-    mask,    // listMaskDraws(), those of lights that halvesMask() to an image of half the size
-    spread,  // of these lights: from that image over the mask, and what it leaves drawn as listMaskDraws() says
-    volumes, // listVolumeDraws(): into the mask, the lights of filter volumes
-    history, // join the mask with that of the frame before: lights whose positions take turns (SunSteps::alternate)
-    converge, // join it with the mean of all frames before (LightPlan::sample)
+    bounds,   // fit views with ViewProjection::gpu_cascade to the camera's depth: cascade_lights.h
+    maps,     // draw the maps of `options`, if there are any; for a filterable filter also make moments, blur, mip
+              // levels
+    mask,     // listMaskDraws(); draws of lights with halvesMask() go to an image of half the size
+    spread,   // for these lights: spread that image over the mask, then draw the remaining pixels by listMaskDraws()
+    volumes,  // listVolumeDraws(): draw the lights of filter volumes into the mask
+    history,  // join the mask with that of the frame before: lights whose positions take turns (SunSteps::alternate)
+    converge, // join the mask with the mean of all frames before (LightPlan::sample)
     blur,     // listSoftenDraws()
 };
 
-/// One thing to do.
+/// One pass.
 struct FramePass {
-    FramePassKind kind = FramePassKind::mask; // what
-    std::uint32_t options = 0;                // of Plan::options; for maps
+    FramePassKind kind = FramePassKind::mask; // the kind of pass
+    std::uint32_t options = 0;                // index into Plan::options; for maps
 };
 
-/// Keeps what `out` has allocated.
+/// Lists the passes of a plan. Keeps the memory of `out`.
 GNOMON_API void listFramePasses(const Plan& plan, std::vector<FramePass>& out);
 /// Is there a pass of this kind?
 [[nodiscard]] GNOMON_API bool has(const std::vector<FramePass>& passes, FramePassKind kind);
-/// Has the plan a light of these options? Where it has no light at all, the first options stand in, so that there is
+/// Has the plan a light with these options? In a plan without lights true for the first options, so that there is
 /// something to bind.
 [[nodiscard]] GNOMON_API bool hasLights(const Plan& plan, std::uint32_t options);
 /// Does the light's plan join this frame's visibility with that of the frame before?

@@ -25,15 +25,15 @@ struct ScreenBounds {
     bool operator==(const ScreenBounds&) const = default;
 };
 
-/// Every pixel that may show a point in the light's reach is inside: all of the picture for a directional light, for a
-/// spot the bounds of its cone, for a point light those of a cube around its sphere. A pixel's width is added on all
-/// sides. `extent`: of the light, extentOf(). A light whose numbers are not finite has all of the picture.
+/// Bounds of every pixel that may show a point in the light's reach: all of the picture for a directional light, the
+/// bounds of the cone for a spot, and those of a cube around its sphere for a point light. A pixel's width is added on
+/// all sides. `extent`: extentOf() the light. A light whose numbers are not finite has all of the picture.
 [[nodiscard]] GNOMON_API ScreenBounds screenBounds(const Light& light, const LightExtent& extent, const Camera& camera,
                                                    glm::uvec2 size_px);
 
 /// The lights of each tile, as two arrays that a storage buffer can take as they are.
 struct LightLists {
-    std::uint32_t side_px = 0; // of a tile
+    std::uint32_t side_px = 0; // side of a tile
     glm::uvec2 tiles{0};       // along x and y; those on the right and at the bottom may be cut
     /// Tile (x, y) has lights[first[i]] to lights[first[i + 1] - 1], i = y * tiles.x + x: indices into `lights`,
     /// ascending.
@@ -48,8 +48,9 @@ struct LightLists {
     }
 };
 
-/// Of all lights, whether or not they cast, in a picture of this size. `scene_bounds_ws`: of all objects, for lights
-/// without a range (extentOf()). Keeps what `out` has allocated. No tiles of a picture, or of tiles, without size.
+/// Lists all lights, whether or not they cast, in a picture of this size. `scene_bounds_ws`: the bounds of all objects,
+/// for lights without a range (extentOf()). Keeps the memory of `out`. There are no tiles where the picture or a tile
+/// has size 0.
 GNOMON_API void listLights(std::span<const Light> lights, const Camera& camera, const Aabb& scene_bounds_ws,
                            glm::uvec2 size_px, std::uint32_t side_px, LightLists& out);
 

@@ -13,7 +13,7 @@ namespace gnomon::pack {
 
 /// One layer of the mask, blurred by one set of options.
 struct SoftenDraw {
-    std::uint32_t layer = 0;    // of the mask
+    std::uint32_t layer = 0;    // layer of the mask
     ScreenBlurOptions blur;     // how it is blurred
     std::uint32_t channels = 0; // bit i: channel i is blurred
     bool whole = true;          // no other light with a map has a channel of the layer: all of them may be written
@@ -21,7 +21,7 @@ struct SoftenDraw {
 
 /// Is the light's part of the mask blurred?
 [[nodiscard]] GNOMON_API bool softens(const Plan& plan, const LightPlan& light);
-/// In the order of the lights. Keeps what `out` has allocated.
+/// Lists the draws in the order of the lights. Keeps the memory of `out`.
 GNOMON_API void listSoftenDraws(const Plan& plan, std::vector<SoftenDraw>& out);
 
 } // namespace gnomon::pack

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What filter volumes draws of each light: casters' shadow volumes, counted in a stencil buffer behind what is seen
-// (z-fail), and then the light's channel of the mask by that count.
+// The draws of filter volumes: for each light the casters' shadow volumes, counted in a stencil buffer behind what is
+// seen (z-fail), and then the light's channel of the mask by that count.
 // Based on: M. McGuire, J. F. Hughes, K. T. Egan, M. J. Kilgard, C. Everitt, "Fast, Practical and Robust Shadows",
 // 2003.
 //
-// For another backend: of each draw, clear the stencil within `pixels`; draw every caster's volume
-// (gnomon/shared/shadow_volume.h says what that is) with depth clamped, not clipped, depth tested and not written, and
-// where the test fails add 1 for faces that turn away from the eye and take 1 away for those that turn to it, both
-// wrapping. Where the count is not 0 the light does not reach.
+// Another backend does this for each draw: clear the stencil within `pixels`; draw every caster's volume
+// (gnomon/shared/shadow_volume.h) with depth clamped, not clipped, depth tested and not written. Where the test fails,
+// add 1 for faces that turn away from the eye and take 1 away for those that turn to it, both wrapping. The light does
+// not reach pixels whose count is not 0.
 #pragma once
 
 #include <gnomon/export.h>
@@ -22,11 +22,11 @@ namespace gnomon::pack {
 
 /// One light's volumes.
 struct VolumeDraw {
-    std::uint32_t light = 0;    // of Plan::lights, which has the casters
-    std::uint32_t layer = 0;    // of the mask
+    std::uint32_t light = 0;    // index into Plan::lights, which has the casters
+    std::uint32_t layer = 0;    // layer of the mask
     std::uint32_t channels = 0; // bit i: channel i is the light's
-    ScreenBounds pixels;        // that may show a point in the light's reach; never empty
-    /// Between which values of the camera's depth buffer that lies: 0 .. 1, the lesser first.
+    ScreenBounds pixels;        // pixels that may show a point in the light's reach; never empty
+    /// The range of the camera's depth buffer in which such points lie: 0 .. 1, the lesser first.
     float least_depth = 0.0F;
     float most_depth = 1.0F; // the greater
     glm::vec4 place{0.0F};   // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position

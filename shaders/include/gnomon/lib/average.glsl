@@ -32,8 +32,8 @@ GN_FN real4 averageExponents(int filter_number, MomentRule rule)
 }
 
 struct MomentSum {
-    real4 total;     // of w v; of logarithms, of w e^(k (v - reference))
-    real4 reference; // of logarithms: the v with the largest k v so far
+    real4 total;     // sum of w v; for logarithms, of w e^(k (v - reference))
+    real4 reference; // for logarithms: the v with the largest k v so far
 };
 
 GN_FN MomentSum startAverage(real4 value, real weight, bool logarithms)
@@ -67,7 +67,7 @@ GN_FN real4 finishAverage(MomentSum sum, real4 k, bool logarithms)
     return sum.reference + log(max(sum.total, real4(real(1e-30)))) / k;
 }
 
-// Of the four texels under a texel of the next mip level.
+// The average of the four texels under a texel of the next mip level.
 GN_FN real4 averageOfFour(real4 a, real4 b, real4 c, real4 d, real4 k, bool logarithms)
 {
     MomentSum sum = startAverage(a, real(0.25), logarithms);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// For caster shaders, ours and hosts': what a map's texel is to hold. In the vertex shader, write gl_Position =
-// clip_from_world * p (of a MapPass with a `placement`: casterPlaced() of that) and pass on casterMetric(). In the
-// fragment shader of a map with a colour format write to it casterTexel(), with kDepthBytes for R8G8B8A8_UNORM and
-// kDepthAlone for all others; of a depth-only map that says MapPassFormats::write_frag_depth, write casterStored() to
-// gl_FragDepth; else nothing, because the rasteriser's depth is the metric then. In a pass of several views (MapPass::
-// view_count) write the view's number to gl_Layer, too.
-// Of a paraboloid's map (ClassicFormats::paraboloid) edges are straight from vertex to vertex, where they should be bent, but
-// depths are exact: each texel's ray of light is met with the triangle's plane.
+// For caster shaders, ours and hosts': the value that a map's texel must hold. The vertex shader writes gl_Position =
+// clip_from_world * p (casterPlaced() of that for a MapPass with a `placement`) and passes on casterMetric(). The
+// fragment shader of a map with a colour format writes casterTexel() to it, with kDepthBytes for R8G8B8A8_UNORM and
+// kDepthAlone for all others. For a depth-only map with MapPassFormats::write_frag_depth it writes casterStored() to
+// gl_FragDepth, and for any other nothing, because the rasteriser's depth is the metric then. In a pass of several
+// views (MapPass::view_count) the vertex shader also writes the view's number to gl_Layer.
+// In a paraboloid's map (ClassicFormats::paraboloid) edges are straight from vertex to vertex, where they should be
+// bent. Depths are exact: each texel's ray of light is intersected with the triangle's plane.
 #ifndef GNOMON_CASTER_GLSL
 #define GNOMON_CASTER_GLSL
 #include "../shared/depth_metric.h"
@@ -21,8 +21,8 @@ GN_FN real casterMetric(real3 p_ws, real4 metric_ws)
     return depthMetricPlane(p_ws, metric_ws);
 }
 
-// Of a view that the GPU has fitted to a part of its base map: from clip space of the base map to its own. `place` is
-// what MapPass::placement holds. Depth stays as it is.
+// For a view that the GPU has fitted to a part of its base map: takes the base map's clip space to the view's own.
+// `place` is the vec4 in MapPass::placement. Depth stays as it is.
 GN_FN real4 casterPlaced(real4 clip, real4 place)
 {
     return real4((clip.x - place.z * clip.w) * place.x, (clip.y - place.w * clip.w) * place.y, clip.z, clip.w);
@@ -36,7 +36,7 @@ GN_FN real casterInside(real3 p, real4 clip_plane)
     return dot(real3(clip_plane.x, clip_plane.y, clip_plane.z), p) + clip_plane.w;
 }
 
-// What the fragment shader of a paraboloid needs to be interpolated besides clip.xyz: xy: the place in the disc, z: less
+// The second interpolated input of a paraboloid's fragment shader, besides clip.xyz. xy: the place in the disc; z: less
 // than 0 farther behind the light than the map's border shows.
 GN_FN real3 casterRim(real4 clip)
 {
@@ -46,8 +46,8 @@ GN_FN real3 casterRim(real4 clip)
     return real3(paraboloidPlace(q), q.z / max(length(q), real(1e-30)) + behind);
 }
 
-// Of a paraboloid: gl_Position, `clip` being clip_from_world * p. Its z makes of the near plane the border's end: what is
-// farther behind the rasteriser cuts.
+// gl_Position for a paraboloid; `clip` is clip_from_world * p. Its z puts the near plane at the border's end, so the
+// rasteriser cuts off everything farther behind.
 GN_FN real4 casterParaboloid(real4 clip)
 {
     real3 rim = casterRim(clip);
@@ -69,20 +69,20 @@ GN_FN real casterStored(real metric)
     return depthMetricStored(metric);
 }
 
-// Of a map with a colour format: in all its channels, so that a target that holds two maps needs nothing but the write
-// mask of MapPass::colour_mask.
+// The texel of a map with a colour format. All channels hold the depth, so that a target with two maps needs only the
+// write mask of MapPass::colour_mask.
 GN_FN real4 casterTexel(int holding, real metric)
 {
     return pairedTexel(holding, casterStored(metric));
 }
 
-// Of a map of ids (ClassicFormats::ids): what stands for the object, and beside it a depth, where the format has room.
+// The texel of a map of ids (ClassicFormats::ids): the object's id, and beside it a depth, where the format has room.
 GN_FN real4 casterIdTexel(real id, real depth)
 {
     return real4(id, casterStored(depth), real(0.0), real(0.0));
 }
 
-// What stands for a piece of an object there. `first`: what stands for its first one; `ids`: how many there are.
+// The stored id of a piece of an object. `first`: the stored id of its first piece; `ids`: how many ids there are.
 GN_FN real casterPieceId(real first, real piece, real ids)
 {
     return idOfPiece(idOfTexel(first, ids), piece, ids) / ids;
@@ -96,8 +96,8 @@ GN_FN real casterMidpoint(real first, real second)
     return second < real(1.0) ? real(0.5) * (first + second) : first;
 }
 
-// Of a depth that was stored, rounded by at most `quantum`: does this one lie behind it? One that does not is of the
-// same surface.
+// Does a depth lie behind a stored one, which was rounded by at most `quantum`? One that does not belongs to the same
+// surface.
 GN_FN bool casterBehind(real stored, real first, real quantum)
 {
     return stored > first + quantum;

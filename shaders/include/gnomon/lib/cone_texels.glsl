@@ -62,7 +62,7 @@ GN_FN bool canBlock(MapPoint point, FilterInput f, real2 cell, real2 at, real st
     return rises;
 }
 
-// What blocks say of the texels that the rays may touch.
+// The bounds that blocks give for the texels that the rays may touch.
 struct RayRegion {
     real4 texels;  // rectangle: low x, y, high x, y
     real nearest;  // nothing there is nearer to the light
@@ -121,11 +121,11 @@ GN_FN bool noneRises(MapPoint point, FilterInput f, real4 texels)
     return none;
 }
 
-// What is known of a receiver before a single texel is looked at.
+// The facts about a receiver that are known before any texel is read.
 struct Surroundings {
-    real visibility; // 0 or 1; negative: that depends
-    real nearest;    // nothing that may block is nearer to the light
-    real4 texels;    // where it may be, as RayRegion has it
+    real visibility; // 0 or 1; negative: not known
+    real nearest;    // no possible blocker is nearer to the light
+    real4 texels;    // where blockers may be, as in RayRegion
 };
 
 // Rays start within a square of `within` texels around the receiver, on its plane. `end`: kRayEnd or kDiscEnd.

@@ -3,17 +3,18 @@
 // Based on: T. Annen, T. Mertens, H.-P. Seidel, E. Flerackers, J. Kautz, "Exponential Shadow Maps", Graphics Interface
 // 2008; M. Salvi, "Rendering Filtered Shadows with Exponential Shadow Maps", ShaderX6, 2008.
 //
-// Where it fails, how that is seen, and what is done. V = sat(x), x = e^(-c d) E[e^(c z)], supposes that no occluder z of
-// the kernel is behind the receiver d. One that is (the floor beyond a table's edge) adds e^(c (z - d)) times its weight
-// to x, which drowns the shadow of all the others: light leaks along the edge. It shows in x > 1, which nothing else
-// causes but the receiver's bias. Annen et al. then compare texels one by one, which a blurred map does not have. We
-// look kRing texels of the level to each side, at the depth that the receiver's own plane has there, and average
+// Where it fails, how that is found, and the remedy. V = sat(x), x = e^(-c d) E[e^(c z)], assumes that no occluder z in
+// the kernel is behind the receiver d. One that is (the floor beyond a table's edge) adds e^(c (z - d)) times its
+// weight to x, which drowns the shadow of all the others: light leaks along the edge. It shows in x > 1, which
+// otherwise only the receiver's bias causes. Annen et al. then compare texels one by one, which a blurred map does not
+// have. We read kRing texels of the level to each side, at the depth that the receiver's own plane has there, and
+// average
 //   V = sum w_i sat(x_i) / max(x_i, 1) / sum w_i / max(x_i, 1),
-// so that what is drowned counts as little as it knows, and the next place on the same surface answers instead. Where
-// all x_i are 1 or more that is exactly 1: lit surfaces stay lit, slanted ones too, because of the plane. Where x <= 1
-// nothing changes. Over an edge above a far floor this takes 58 % off the mean error with the default blur, 43 % at sigma
-// 3 texels (esm_test.cpp has the errors with and without). What is left: leaks where no read is clear of what is behind
-// (slats over a drop), and where the blur reaches further than the reads.
+// so that a drowned read counts for little, and the next place on the same surface answers instead. Where all x_i are 1
+// or more that is exactly 1: lit surfaces stay lit, slanted ones too, because of the plane. Where x <= 1 nothing
+// changes. Over an edge above a far floor this takes 58 % off the mean error with the default blur, 43 % at sigma 3
+// texels (esm_test.cpp has the errors with and without). It still leaks where no read is clear of occluders behind the
+// receiver (slats over a drop), and where the blur reaches further than the reads.
 #ifndef GNOMON_ESM_GLSL
 #define GNOMON_ESM_GLSL
 #include "../shared/exponential.h"
@@ -21,7 +22,7 @@
 GN_BEGIN
 
 GN_CONST real kRing = real(3.0);         // texels of the level; the error is least at 3 with the default blur
-GN_CONST real kRingWeight = real(0.05);  // of each of its reads, against 1 of the receiver's own
+GN_CONST real kRingWeight = real(0.05);  // weight of each of its reads; the receiver's own has 1
 
 GN_FN real esmCoordinate(real depth, FilterInput f)
 {
@@ -61,7 +62,7 @@ GN_FN real filterEsm(MapPoint point, FilterInput f)
     real t = esmCoordinate(point.depth, f);
     real excess = esmExcess(sampleMoments(point, f, f.layer).x, t, f.moments);
     real v = esmVisibility(excess);
-    // What the bias of a lit receiver amounts to is no sign of anything: a texel's depth.
+    // The bias of a lit receiver, a texel's depth, also makes an excess and is allowed for.
     real stretch = metricStretch(point.depth, f.moments.flags, f.near_over_far);
     real allowed = esmExponents(f.moments).x * momentScale(f.moments.flags) * stretch * point.texel_depth;
     real surplus = excess - allowed;

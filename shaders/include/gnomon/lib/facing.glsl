@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said of a surface and a light without any map: whether it faces the light, where it takes its light from, and
-// how shadows fade with distance.
+// The part of shading that needs no map: whether a surface faces the light, where it takes its light from, and how
+// shadows fade with distance.
 #ifndef GNOMON_FACING_GLSL
 #define GNOMON_FACING_GLSL
 #include "../shared/bias.h"
@@ -12,9 +12,9 @@ GN_BEGIN
 // err by about 2e-4, so at zero a face that the light grazes would be lit and dark by turns, pixel by pixel.
 GN_CONST real kGrazing = real(0.002);
 
-// The share of a light's disc that is over the horizon of a surface with normal `n`: 0 to 1, within 0.04. `to_light` is of
-// any length, and `radius` is of the same scale (lightSpread()). A disc narrower than kGrazing is taken to stand lower, by
-// what it lacks.
+// The share of a light's disc that is over the horizon of a surface with normal `n`: 0 to 1, within 0.04. `to_light`
+// may have any length; `radius` has the same scale (lightSpread()). A disc narrower than kGrazing is lowered by the
+// difference.
 GN_FN real shareOverHorizon(real3 n, real3 to_light, real radius)
 {
     real least = kGrazing * length(to_light) + real(1e-30); // more than 0 at a light's own place too
@@ -26,8 +26,8 @@ GN_FN real shareOverHorizon(real3 n, real3 to_light, real radius)
 // Where a surface takes its light from.
 struct LightPoint {
     real3 p;
-    real3 n;    // of the plane that the surface is taken for there
-    real share; // of the light's disc that is over its horizon: the visibility is at most that
+    real3 n;    // normal of the plane that stands for the surface there
+    real share; // share of the light's disc over its horizon, an upper bound of the visibility
 };
 
 // Below this cosine between a triangle and the light, some three degrees, its neighbours on a smooth body rise over its
@@ -58,7 +58,7 @@ GN_FN LightPoint lightPoint(real3 p, real3 n, SmoothSurface s, real3 to_light, r
 // A point that light all but grazes, and how.
 struct GrazedPoint {
     real3 p;
-    real sine; // of the light's height over the plane there; 0: it is higher than that, or wide
+    real sine; // sine of the light's height over the plane there; 0: it is higher, or wide
 };
 
 // The triangle is that of `at`, its lightPoint(). `light_sine`: of the light's radius, as it is seen. A triangle that faces

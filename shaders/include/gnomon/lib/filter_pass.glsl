@@ -52,13 +52,13 @@ layout(set = 0, binding = 4) uniform Kernel
     BlurKernel kernel;
 };
 
-// Of a block.
+// Flags of a block.
 const uint kReachedAlongX = 1u; // a blur along x reads a caster for it
-const uint kReached = 2u;       // a blur along x and y does
+const uint kReached = 2u;       // a blur along x and y reads one
 
 MomentRule momentRule()
 {
-    MomentRule rule; // of reading it says nothing: these passes write
+    MomentRule rule; // members for reading stay unset: these passes write
     rule.flags = kFlags;
     rule.sampling = 0;
     rule.layers = kLayers;
@@ -81,13 +81,13 @@ bool averagesLogs()
     return averagesLogarithms(kFilter, kFlags);
 }
 
-// Of what was read from an image: channels that it does not have need no arithmetic.
+// The channels that the image has, of a value read from it: the others need no arithmetic.
 vec4 storedPart(vec4 v)
 {
     return vec4(v.x, kChannels > 1 ? v.y : 0.0, kChannels > 2 ? v.zw : vec2(0.0));
 }
 
-// What a texel without a caster holds: the far plane.
+// The input of a texel without a caster: the far plane.
 EncodeInput litInput(int image_layer)
 {
     EncodeInput e;

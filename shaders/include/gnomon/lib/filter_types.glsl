@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every filter is given. A filter is a function `real name(MapPoint point, FilterInput f)` in a file of its own.
+// The inputs of every filter. A filter is a function `real name(MapPoint point, FilterInput f)` in a file of its own.
 //
 // The includer gives access to the map's texels beforehand, because GLSL and a test on the CPU have them in different
 // places. Texel (i, j) is centred on (i + 0.5, j + 0.5); a gather has the four texels that meet at a corner with integer
@@ -7,23 +7,23 @@
 //   real mapTexel(real2 texel, real layer, real part);    // texel: integer coordinates
 //   real4 mapGather(real2 corner, real layer, real part); // corner: integer coordinates
 // `part`: which of the two maps that a texel may hold (gnomon/shared/paired_depth.h).
-// To what is known of squares of texels (gnomon/shared/map_blocks.h): block (i, j) of a level >= 1 has the texels from
-// (i, j) times 2^level on; nearest and farthest depth.
+// Access to blocks (gnomon/shared/map_blocks.h): block (i, j) of a level >= 1 has the texels from (i, j) times 2^level
+// on; gives their nearest and farthest depth.
 //   real2 mapBlock(real2 block, int level, real layer);
-// To what smoothies (gnomon/shared/smoothies.h) have beside a texel, packed:
+// Access to the smoothie beside a texel (gnomon/shared/smoothies.h), packed:
 //   int mapSmoothie(real2 texel, real layer);
-// And to the points of a disc filter's pattern, which are a table on the GPU (gnomon/shared/discs.h):
+// Access to the points of a disc filter's pattern, which are a table on the GPU (gnomon/shared/discs.h):
 //   real2 discPoint(int i); // in the unit disc
-// And to filterable maps: an average of texels of one mip level or two, with texel coordinates of the finest level, and
-// the layers of depth of a view (GpuDepthLayers::layer):
+// Access to filterable maps: an average of texels of one mip level or two, with texel coordinates of the finest level,
+// and the layers of depth of a view (GpuDepthLayers::layer):
 //   real4 mapMoments(real2 texel, real level, real layer); // bilinear, between levels too
 //   real4 mapDepthLayer(int slot, int i);
 #ifndef GNOMON_FILTER_TYPES_GLSL
 #define GNOMON_FILTER_TYPES_GLSL
 #include "../shared/bias.h"
 #include "../shared/moment_rule.h"
-// Whether what is cheap to work out is worked out anew in a loop, and not kept over it: a constant. Registers that are
-// kept decide how many pixels a GPU has in flight; a software rasteriser has none to spare, and would do the work.
+// A constant: whether cheap values are computed anew in each turn of a loop, and not kept over it. Kept registers limit
+// how many pixels a GPU has in flight. A software rasteriser gains nothing and would only do the work.
 #ifndef GNOMON_RECOMPUTES
 #define GNOMON_RECOMPUTES false
 #endif
@@ -31,32 +31,32 @@ GN_BEGIN
 
 struct FilterInput {
     real layer;
-    real part;          // of a texel with two maps: 0: the first, 1: the second
+    real part;          // in a texel with two maps: 0: the first, 1: the second
     int kernel_width;   // 1, 3, 5, 7: separable; 0: disc; below 0: nine points (pcf_weights.h)
     int disc_taps;      // points of the disc
     real disc_radius;   // texels
     real smoothies;     // texels that those beside the map reach (gnomon/shared/smoothies.h); 0: there are none
-    real4 kernel;       // gaussianWeights(kernel_width, sigma); of id and depth-id IdRule
-    real2 pixel;        // of the screen, for noise
-    real shift;         // of that noise from frame to frame, pixels along x and y
+    real4 kernel;       // gaussianWeights(kernel_width, sigma); for id and depth-id IdRule
+    real2 pixel;        // on the screen, for noise
+    real shift;         // shift of that noise from frame to frame, pixels along x and y
     real4 tile;         // the view's whole tile: x0, y0, x1, y1
-    // Of filters that know how large the light is:
+    // For filters that know how large the light is:
     MapRows rows;
     real3 n;            // the receiver's unit geometric normal
     real3 toward;       // from the receiver to the light's centre; of unit length for a parallel light
     real spread;        // radius, at the end of `toward`, of the disc that the light is seen as
-    int stood;          // so many frames before this one, which are averaged with it, saw the same; 0: none are
-    // Of id and depth-id:
-    real id;            // of the receiver's object
+    int stood;          // how many earlier frames that are averaged with this one saw the same; 0: none
+    // For id and depth-id:
+    real id;            // id of the receiver's object
     real lifted;        // 1: the receiver is on a smooth surface, beside the triangles that the map was drawn from
     real3 place;        // the receiver, in the space of the rows
-    real3 object_centre; // of its object's box, likewise, and half the box's size
+    real3 object_centre; // centre of its object's box in that space, and half the box's size
     real3 object_half;
-    // Of filterable maps; of hard and pcf the metric's flag:
+    // For filterable maps; for hard and pcf the metric's flag:
     MomentRule moments;
-    int slot;           // lvsm: of the view's depth layers
+    int slot;           // lvsm: slot of the view's depth layers
     real coarsest;      // last mip level, or level of blocks, that it may read
-    real near_over_far; // of the view's depth metric
+    real near_over_far; // near / far of the view's depth metric
     real2 footprint_x;  // texels that the receiver's surface moves on the map to the next pixel on the right
     real2 footprint_y;  // and below
 };

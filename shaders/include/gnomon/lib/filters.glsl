@@ -41,7 +41,7 @@
 #endif
 GN_BEGIN
 
-// Of a filter that compares depths: it is no lighter than the smoothies beside its map, if there are any.
+// The visibility of a filter that compares depths: at most that of the smoothies beside its map, if there are any.
 GN_FN real withSmoothies(real visibility, MapPoint point, FilterInput f)
 {
     real v = visibility;
@@ -53,7 +53,7 @@ GN_FN real withSmoothies(real visibility, MapPoint point, FilterInput f)
     return v;
 }
 
-// `filter_number`: one of those that are compiled. What is none of them is lit.
+// `filter_number`: one of the compiled filters. Any other gives 1.
 GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
 {
     real v = real(1.0);

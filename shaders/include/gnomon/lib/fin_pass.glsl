@@ -9,7 +9,7 @@ layout(push_constant) uniform Push
     vec4 row_y;
     vec4 row_w;
     vec4 row_depth;
-    vec4 tile; // of the view, texels: xy its first corner, zw half its size
+    vec4 tile; // the view's, texels: xy its first corner, zw half its size
     vec4 rule; // x: texels that fins reach, y: what stored depths may be off by, z: the map's layer, w: 1 where the map cuts what is before its near
                // plane, 0 where it clamps it
 };

@@ -18,7 +18,7 @@ GN_FN IdRule idRuleOf(FilterInput f)
     return rule;
 }
 
-// Of the texels that meet at a corner.
+// The ids of the texels that meet at a corner.
 GN_FN real4 idsAround(real2 corner, FilterInput f, IdRule rule)
 {
     real4 stored = mapGather(corner, f.layer, real(0.0));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What filters have in common that know how large the light is: the cone of rays from a receiver to all of the light, as
-// it lies on the map, and the noise by which its points are chosen.
+// Shared by filters that know how large the light is: the cone of rays from a receiver to all of the light, as it lies
+// on the map, and the noise by which its points are chosen.
 #ifndef GNOMON_LIGHT_CONE_GLSL
 #define GNOMON_LIGHT_CONE_GLSL
 #include "../shared/discs.h"
@@ -10,15 +10,15 @@ GN_BEGIN
 // Points of the cone of rays at one distance along the light, as homogeneous map coordinates. At s = 1 the cone's axis
 // is one `toward` from the receiver.
 struct RayCone {
-    real3 start;  // x, y, w of the receiver
-    real metric;  // of the receiver, less the bias
-    real3 axis;   // what start gains along the axis
+    real3 start;  // the receiver's x, y, w
+    real metric;  // the receiver's, less the bias
+    real3 axis;   // growth of start along the axis
     real3 side_x; // and along two directions across it, to the cone's rim
     real3 side_y;
-    real rise;    // what the metric loses along the axis; > 0
+    real rise;    // fall of the metric along the axis; > 0
     real rise_x;  // and along the two directions, by sign
     real rise_y;
-    real2 at;     // of the receiver on the map: x and y of start, over its w
+    real2 at;     // the receiver's place on the map: x and y of start, over its w
     real3 facing; // how far the axis and the two directions lead from the receiver's plane
 };
 
@@ -54,12 +54,12 @@ GN_FN RayCone rayCone(MapPoint point, FilterInput f)
 // Before rays have come to a lamp their places on its map go to infinity. They are followed until w, the distance
 // along the lamp's axis, is this share of what it is at the receiver.
 GN_CONST real kRayEnd = real(0.008);
-// A filter that looks all over the cone's disc, and does not follow rays, ends sooner: the few taps of a wider disc miss
-// what is small.
+// A filter that reads all over the cone's disc, and does not follow rays, ends sooner: the few taps of a wider disc
+// miss small occluders.
 GN_CONST real kDiscEnd = real(0.05);
 
-// A ray's length in which the metric falls by `fall`, `rise` being what it falls over a length of 1; `w` and `w_way`: at
-// its beginning, and what it gains over a length of 1. `end`: kRayEnd or kDiscEnd.
+// A ray's length in which the metric falls by `fall`. `rise`: its fall over a length of 1; `w` and `w_way`: w at the
+// ray's beginning, and its growth over a length of 1; `end`: kRayEnd or kDiscEnd.
 GN_FN real rayLength(real fall, real rise, real w, real w_way, real end)
 {
     real s = max(fall, real(0.0)) / max(rise, real(1e-30));
@@ -86,7 +86,7 @@ GN_FN real2 coneTexel(RayCone cone, real s, real2 at)
 // Another for each pixel.
 struct ConeNoise {
     real2 turn;  // cosine and sine
-    real2 shift; // of a texel
+    real2 shift; // parts of a texel
 };
 
 GN_FN ConeNoise coneNoise(real2 pixel)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// GLSL only: a light's visibility at a point, from buffers that gnomon::pack fills. What the mask pass calls, and
-// include/gnomon/visibility.glsl gives to hosts; that header says what may be defined beforehand.
+// GLSL only: a light's visibility at a point, from buffers that gnomon::pack fills. The mask pass calls it, and
+// include/gnomon/visibility.glsl gives it to hosts; that header lists the macros to define beforehand.
 #ifndef GNOMON_LIGHT_VISIBILITY_GLSL
 #define GNOMON_LIGHT_VISIBILITY_GLSL
 #ifndef GNOMON_SET
@@ -176,7 +176,7 @@ FilterInput filterInput(vec2 pixel)
 }
 
 #ifdef GNOMON_OBJECT
-// What filters id and depth-id know of the receiver's object; `options` GpuLight's. One that there is not is as the
+// Fills in the receiver's object for filters id and depth-id; `options`: GpuLight's. A missing object counts as the
 // ground, which has id 0.
 void placeObject(inout FilterInput f, uvec4 options, vec3 p)
 {
@@ -259,8 +259,8 @@ uint slicesAt(vec3 p)
 struct Search {
     uint next;
     uint end;
-    uint slices; // of few views: a bit for each that is left
-    float left;  // of layered views: what those before leave of 1
+    uint slices; // with few views: a bit for each that is left
+    float left;  // with layered views: the share that those before leave
 };
 
 bool isLeft(Search s)
@@ -287,7 +287,7 @@ float nextShare(inout Search s, bool is_first, Receiver r, out uint view)
         if (GNOMON_LAYERED && isLayered(asked)) {
             float counts = is_within && is_held && r.asks ? min(s.left, viewOpacity(asked, r.p)) : 0.0;
             s.left -= counts;
-            share = counts > 0.0 ? counts / (1.0 - s.left) : 0.0; // of a mean over those so far
+            share = counts > 0.0 ? counts / (1.0 - s.left) : 0.0; // share in a mean over those so far
         }
     } while (GNOMON_IN_SOFTWARE && share == 0.0 && isLeft(s));
     return share;
@@ -304,8 +304,8 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
     Search s = Search(first, end, slicesAt(r.p), 1.0);
     bool is_first = true;
     float share = nextShare(s, true, r, view);
-    // Of one view alone nearly every pixel is in it: in software none branches, and what lies outside throws away what it
-    // found. lavapipe 22.3 crashes on the branch, where all that it depends on is at fixed places of uniforms.
+    // Nearly every pixel is in a single view: in software none branches, and pixels outside discard their result.
+    // lavapipe 22.3 crashes on the branch where all that it depends on is at fixed places of uniforms.
     const bool is_alone = GNOMON_FEW_VIEWS == 1 && GNOMON_IN_SOFTWARE;
     bool more = false;
     if (is_alone || share > 0.0 || !GNOMON_IN_SOFTWARE) {
@@ -330,7 +330,7 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
                     colour = GNOMON_FEW_VIEWS == 1 ? (share > 0.0 ? tinted : colour) : colour * (1.0 - share) + tinted * share;
                 }
 #endif
-                // Of the first one just what is there, which mix() does not promise.
+                // The first view's value is taken exactly, which mix() does not promise.
                 seen = GNOMON_FEW_VIEWS == 1 ? (share > 0.0 ? here : seen) : seen * (1.0 - share) + here * share;
 #ifdef GNOMON_HAS_CONFIDENCE
                 if (GNOMON_CONFIDENCE) {

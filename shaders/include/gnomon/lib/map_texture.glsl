@@ -53,7 +53,7 @@ vec4 mapGather(vec2 corner, float layer, float part)
     return first;
 }
 
-// What some filters have beside a map: blocks, or smoothies.
+// The second image of some filters beside a map: blocks, or smoothies.
 #if GNOMON_COMPILES(GNOMON_FILTER_PCSS) || GNOMON_COMPILES(GNOMON_FILTER_RAYMARCH) || (defined(GNOMON_SMOOTHIES) && GNOMON_COMPILES_KERNELS)
 layout(set = GNOMON_MAP_SET, binding = GNOMON_BLOCKS_BINDING) uniform usampler2DArray gnomon_blocks;
 #endif

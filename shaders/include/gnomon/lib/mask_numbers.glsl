@@ -31,10 +31,10 @@ const int kScreenNumbers = 7;
     DO(10, rule.moment_warp)                                                                                           \
     DO(11, rule.moment_variance)                                                                                       \
     DO(12, rule.moment_shape)
-const int kLightPlace = 13; // of a draw with few views (light_visibility.glsl)
+const int kLightPlace = 13; // in a draw with few views (light_visibility.glsl)
 
-// The same of the one view of a draw that is made for one (GNOMON_ONE_VIEW): DO(place, member of GpuView). Some
-// devices do not have that many outputs, so such a draw is for software alone. What is not listed is not read: the view
+// The numbers of the only view of a draw that is made for one (GNOMON_ONE_VIEW): DO(place, member of GpuView). Some
+// devices do not have that many outputs, so such a draw is for software alone. Other members are not read: the view
 // serves all of its map, and an orthographic one is read as one in perspective whose w is 1 everywhere.
 #ifdef GNOMON_ONE_VIEW
 #define GNOMON_VIEW_NUMBERS(DO)                                                                                        \
@@ -46,8 +46,8 @@ const int kLightPlace = 13; // of a draw with few views (light_visibility.glsl)
     DO(19, scale)                                                                                                      \
     DO(20, whole)                                                                                                      \
     DO(21, more)
-// Of the second view of a draw with two positions of the sun (kPaired), so many places after the first one's. It is
-// orthographic, so GpuLight::steps has the place of its w.
+// The second view of a draw with two positions of the sun (kPaired) has its numbers so many places after those of the
+// first. It is orthographic, so GpuLight::steps has the place of its w.
 const int kLaterNumbers = 8;
 const int kStepsPlace = 16 + kLaterNumbers;
 const int kMaskNumbers = 30;

@@ -19,11 +19,11 @@ GN_BEGIN
 
 GN_CONST int kMomentSearchTaps = 16;
 GN_CONST int kMomentTaps = 16;
-// What a read averages around its place, texels: its own kernel and some of the map's blur.
+// How far a read averages around its place, texels: its own kernel and some of the map's blur.
 GN_CONST real kTapReach = real(1.5);
-// Lower occluders, in widths of a texel, are what a curved receiver looks like.
+// Occluders lower than this, in widths of a texel, may be the receiver's own curvature.
 GN_CONST real kLeastHeight = real(2.0);
-// So small a share of a tap may be nothing but the bound's slack, and its height means nothing.
+// So small a share of a tap may be only the bound's slack, and its height means nothing.
 GN_CONST real kLeastShare = real(0.1);
 
 // The point of the receiver's plane that is at a place on the map, or at the nearest one within the tile. A plane is off

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pcss: a disc of comparisons, as wide as the mean depth of what may block says that the penumbra is.
+// pcss: a disc of comparisons, as wide as the penumbra that follows from the blockers' mean depth.
 // Based on: R. Fernando, "Percentage-closer soft shadows", NVIDIA, 2005. In world units: both discs are cross-sections
 // of the cone of rays to the light, carried to the map by its own rows, so that a penumbra is as wide in every fit,
 // cascade and size of a map. Departures: a texel counts as a blocker only where the cone has come as far as it when it
-// is as deep; each comparison is with the receiver's plane at the texel's own centre; what blocks (gnomon/shared/map_blocks.h)
-// can decide is not searched.
+// is as deep; each comparison is with the receiver's plane at the texel's own centre; receivers that blocks
+// (gnomon/shared/map_blocks.h) can decide are not searched.
 #ifndef GNOMON_PCSS_GLSL
 #define GNOMON_PCSS_GLSL
 #include "cone_texels.glsl"
@@ -18,7 +18,7 @@ GN_FN bool tapBlocks(MapPoint point, FilterInput f, real2 texel, GN_OUT(real) st
 {
     real2 low = real2(f.tile.x, f.tile.y);
     real2 high = real2(f.tile.z, f.tile.w) - real2(real(1.0));
-    real2 cell = min(high, max(low, floor(texel))); // what is no number is a texel, too
+    real2 cell = min(high, max(low, floor(texel))); // NaN is a texel, too
     stored = mapTexel(cell, f.layer, f.part);
     return canBlock(point, f, cell, cell + real2(real(0.5)) - point.texel, stored);
 }

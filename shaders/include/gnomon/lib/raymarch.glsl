@@ -6,12 +6,13 @@
 // is compared with the receiver's plane at the texel's own centre is after H. Dou et al., "Adaptive depth bias for
 // shadow maps", JCGT 3(4), 2014.
 //
-// A ray starts on the receiver's plane. Where it crosses a texel's surface it is blocked. So it is where it passes
-// between the surfaces of two neighbouring texels that are not far apart in depth, because there the map has one
-// surface, which leans. Texels on the receiver's plane or beneath it cannot block. Occluders that overlap fuse by
+// A ray starts on the receiver's plane. It is blocked where it crosses a texel's surface. It is also blocked where it
+// passes between the surfaces of two neighbouring texels that are not far apart in depth, because there the map has one
+// slanted surface. Texels on the receiver's plane or beneath it cannot block. Occluders that overlap fuse by
 // themselves, which the mean depth of blockers (pcss) cannot do.
 //
-// What the map does not hold, no ray can find: what lies behind its first surface, and what is thinner than a texel.
+// Rays cannot find occluders that the map does not hold: those behind its first surface, and those thinner than a
+// texel.
 #ifndef GNOMON_RAYMARCH_GLSL
 #define GNOMON_RAYMARCH_GLSL
 #include "cone_texels.glsl"
@@ -22,20 +23,20 @@ GN_CONST int kLeastRays = 24;
 GN_CONST int kMostRays = 48;
 GN_CONST int kRaysToAgree = 8;
 GN_CONST real kRaysPerTexel = real(3.5); // that the light's disc is wide on the map
-// Vogel's points begin in the light's middle. In a wide penumbra, where rays may end early by kPixelSteps, the first few
-// of them are to be all over the light, or it would look smaller: in steps of a power of two, modulo an odd count, each
-// comes once. In a narrow one the first few decide whether further ones are needed: those near the middle, whose edge is
-// sharper than the map's.
+// Vogel's points begin in the light's middle. In a wide penumbra, where rays may end early by kPixelSteps, the first
+// few of them must be spread all over the light, or it would look smaller: in steps of a power of two, modulo an odd
+// count, each comes once. In a narrow penumbra the first few decide whether further ones are needed. They lie near the
+// middle, and their edge is sharper than the map's.
 GN_CONST int kRayStride = 16;
 GN_CONST int kRayOffset = 14;
 // Texels and squares of them that the rays of a pixel may visit together, after which there are no further rays, and
-// that one ray may. What lies beyond does not block.
+// that one ray may. Texels beyond do not block.
 GN_CONST int kPixelSteps = 1024;
 GN_CONST int kRaySteps = 256;
 // The square around the receiver that rays start in, texels. In it an edge's place is found to less than a texel. In a
 // penumbra so wide that nothing is to be narrowed it is one texel, which blurs less.
 GN_CONST real kStartsWithin = real(1.5);
-// The same where frames are averaged whose maps lie a part of a texel apart: these are what finds the edge's place.
+// The square where frames are averaged whose maps lie a part of a texel apart: these frames find the edge's place.
 GN_CONST real kStartsAtRest = real(0.5);
 // Rays that are blocked on one side tell an edge from leaves and wires (RaysFound::straight): none of the edge's ramp is
 // narrowed below the first value, all above the second.
@@ -53,8 +54,8 @@ GN_CONST real kNarrowest = real(0.8);
 GN_CONST int kStripRays = 25;
 GN_CONST real kStripWide = real(1.5);
 GN_CONST real kStripLong = real(5.0);
-// Less than the first of RaysFound::straight is no edge. Of the strip's own, the strip counts for nothing below the
-// second, for all above the third. Less strict ones made woods brighter.
+// RaysFound::straight less than the first is no edge. The strip's own value gives the strip no weight below the second,
+// and all weight above the third. Lower limits made woods brighter.
 GN_CONST real kEdgeFrom = real(0.8);
 GN_CONST real kStripFrom = real(0.6);
 GN_CONST real kStripTo = real(0.9);
@@ -163,7 +164,7 @@ GN_FN RayStep leaveSquare(RayRun r, real2 cell, real size)
     return step;
 }
 
-// What a ray knows of a texel.
+// A texel as a ray sees it.
 struct RayTexel {
     real depth;
     bool rises; // over the receiver's plane
@@ -189,9 +190,9 @@ GN_FN bool texelBlocks(RayTexel before, RayTexel here, real enters, real leaves,
     return between || crosses;
 }
 
-// What became of a ray.
+// The end of a ray.
 struct RayEnd {
-    real fall; // of the metric, to where it leaves the texel that blocks it; negative: nothing does
+    real fall; // fall of the metric to where it leaves the texel that blocks it; negative: none blocks it
     int steps; // squares and texels that it visited
 };
 
@@ -276,11 +277,11 @@ GN_FN RayTask taskInSquare(int count, bool all, real side)
     return task;
 }
 
-// What the rays of a pixel found.
+// The result of a pixel's rays.
 struct RaysFound {
-    real lit;     // share of them that reach the light
-    real2 to_lit; // from the middle of all starts to that of those in light, texels
-    real fall;    // of the metric, from the receiver to what blocks: mean
+    real lit;     // share of the rays that reach the light
+    real2 to_lit; // from the middle of all starts to the middle of lit ones, texels
+    real fall;    // fall of the metric from the receiver to blockers: mean
     bool cut;     // kRaySteps or kPixelSteps were too few
 };
 
@@ -391,7 +392,7 @@ GN_FN real filterRaymarch(MapPoint point, FilterInput f)
         return GNOMON_SHOWS_RAYS ? kShowsDecided : around.visibility;
     }
     real spread = real(0.5) * (around.texels.z - around.texels.x + around.texels.w - around.texels.y);
-    real widest = spread - kStartsWithin; // of the light's disc, where it is farthest from the receiver
+    real widest = spread - kStartsWithin; // width of the light's disc, where it is farthest from the receiver
     real within = widest < kWideTo ? kStartsWithin : real(1.0);
     RayTask task =
         taskInSquare(rayCount(spread), spread >= kWideFrom, f.stood > 0 ? kStartsAtRest : within);

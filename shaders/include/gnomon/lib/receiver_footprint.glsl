@@ -70,7 +70,7 @@ GN_FN real2 footprintOf(MapRows map, real2 texel, real w, real3 p, real3 n, real
     real most = real(1.0) - real(1.0) / kFarthestNeighbour;
     real k = shrinks > most ? most / shrinks : real(1.0);
     real2 moved = (real2(dot(map.x, d), dot(map.y, d)) - texel * wd) * (k / (w + k * wd));
-    // What is not a number counts as long too.
+    // NaN counts as long too.
     return length(moved) <= kLongestFootprint ? moved : real2(kLongestFootprint, real(0.0));
 }
 

@@ -12,10 +12,10 @@ struct Reprojection {
     vec4 eye; // xyz: from the eye of the frame before to this one
 };
 
-// What was seen of a point: a bilinear read of those pixels that show the same surface.
+// An earlier picture of a point: a bilinear read of those pixels that show the same surface.
 struct Before {
     vec4 sum;
-    float shares; // of the pixel's four neighbours, 0 .. 1; 0: not seen
+    float shares; // weight of the neighbours that were found, 0 .. 1; 0: not seen
 };
 
 void addBefore(sampler2DArray visibility, sampler2DArray distances, ivec3 at, vec2 size, float share, float expected,
@@ -40,7 +40,7 @@ Before fetchBefore(sampler2DArray visibility, sampler2DArray distances, Reprojec
         return found;
     }
     vec2 texel = vec2(dot(r.x, point), dot(r.y, point)) / w - 0.5;
-    // What is far off the screen need not be representable as an integer.
+    // A point far off the screen need not be representable as an integer.
     texel = clamp(texel, vec2(-2.0), size + 1.0);
     vec2 cell = floor(texel);
     vec2 part = texel - cell;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What smoothies beside a map (gnomon/shared/smoothies.h) say of a receiver. The includer defines, besides the functions of
-// filter_types.glsl:
+// The visibility of a receiver by the smoothies beside a map (gnomon/shared/smoothies.h). The includer defines, besides
+// the functions of filter_types.glsl:
 //   int mapSmoothie(real2 texel, real layer); // texel: integer coordinates; packed
 #ifndef GNOMON_SMOOTHIES_GLSL
 #define GNOMON_SMOOTHIES_GLSL
@@ -19,9 +19,9 @@ GN_FN real coneRadius(RayCone cone, real depth)
     return sqrt(max(abs(x.x * y.y - x.y * y.x), real(0.0)));
 }
 
-// Of the four texels around a receiver: alpha' of the lit ones. Those in shadow lie within the edge and count as 0. Where
-// the penumbra is narrower than a texel they say nothing of it, and the lit ones count alone. The includer takes the
-// filter's own answer where that is less, so this can only take light away.
+// Averages the four texels around a receiver: alpha' of the lit ones. Texels in shadow lie within the edge and count as
+// 0. Where the penumbra is narrower than a texel they do not show it, and only the lit ones count. The includer takes
+// the filter's own answer where that is less, so this can only take light away.
 GN_FN real smoothieVisibility(MapPoint point, FilterInput f)
 {
     RayCone cone = rayCone(point, f);
@@ -30,12 +30,13 @@ GN_FN real smoothieVisibility(MapPoint point, FilterInput f)
     real2 fraction = shifted - cell;
     real sum = real(0.0);
     real of_lit = real(0.0);
-    real widths = real(0.0); // of penumbrae, texels, each 1 at most
+    real widths = real(0.0); // sum of penumbra widths, texels, each at most 1
     for (int i = 0; i < 4; ++i) {
         real2 at = real2(real(i & 1), real(i >> 1));
         real2 texel = cell + at;
         Smoothie s = unpackSmoothie(mapSmoothie(texel, f.layer));
-        // What does not rise over the receiver's plane, whichever way the edge lies, takes no light from it.
+        // A caster that does not rise over the receiver's plane, in whichever direction the edge lies, takes no light
+        // from it.
         real rises = length(point.depth_slope) * s.distance;
         bool before = s.distance >= real(0.0) && s.depth + rises < point.depth;
         real width = before ? coneRadius(cone, s.depth) : real(0.0);

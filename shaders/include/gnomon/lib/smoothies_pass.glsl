@@ -10,7 +10,7 @@ layout(push_constant) uniform Push
     ivec4 area; // xy: the first texel to be made; z: layer; w: texels that edges are widened by
     vec4 rule;  // x: what stored depths may be off by
 };
-// Of the image between the passes.
+// Layers of the image between the passes.
 const int kEdgeLayer = 0;
 const int kRowLayer = 1;
 

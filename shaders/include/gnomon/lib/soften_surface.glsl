@@ -23,7 +23,7 @@ layout(push_constant) uniform Push
     vec4 along;  // xy: the pass's direction; z: pixels from tap to tap
 } push;
 
-layout(constant_id = 0) const int kScale = 1; // of the images that the blur is worked out in
+layout(constant_id = 0) const int kScale = 1; // pixels to a texel of the images that the blur works in
 layout(constant_id = 1) const bool kEdgeAware = true;
 layout(constant_id = 2) const bool kHasNormals = true;
 layout(constant_id = 3) const int kKernel = 0; // screen_blur.h

@@ -28,7 +28,7 @@ Surface surfaceAt(ivec2 pixel, float depth)
     return s;
 }
 
-// What another pixel counts for: 0 .. 1.
+// The weight of another pixel: 0 .. 1.
 float shareOf(Surface s, ivec2 pixel)
 {
     float depth = GNOMON_SCREEN_TEXEL(depths, pixel).r;

@@ -18,10 +18,10 @@ vec3 tintTexel(vec2 texel, float layer, MapPoint point, vec3 own)
     return before > 0.0 ? vec3(1.0) : min(tint.rgb / own, 1.0);
 }
 
-// What arrives of white light at a receiver, projectReceiver() of it: red, green, blue, and their luminance
-// (ITU-R BT.709). Bilinear, each texel being compared on its own. `own_tint`: what the surface itself multiplies the
-// light behind it by. It is a factor of the product and has to come out again: 0 cannot, so what lets nothing through is
-// lit where it is the nearest, and dark behind another.
+// The share of white light that arrives at a receiver: red, green, blue, and their luminance (ITU-R BT.709). `point`:
+// projectReceiver() of it. Bilinear; each texel is compared on its own. `own_tint`: the factor by which the surface
+// itself dims the light behind it. It is a factor of the stored product and is divided out. 0 cannot be, so a surface
+// that lets nothing through is lit where it is the nearest, and dark behind another.
 vec4 viewTint(GpuView view, MapPoint point, vec3 own_tint)
 {
     float layer = view.more.w - 1.0;

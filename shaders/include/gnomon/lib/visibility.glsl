@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one view says of a point. The includer defines the functions of filter_types.glsl before: map_texture.glsl has
-// them for one array texture.
+// The visibility of a point in one view. The includer defines the functions of filter_types.glsl before:
+// map_texture.glsl has them for one array texture.
 #ifndef GNOMON_VISIBILITY_GLSL
 #define GNOMON_VISIBILITY_GLSL
 #include "../shared/gpu_structs.h"
@@ -67,7 +67,7 @@ GN_FN BiasRule biasOf(GN_VEC4 bias, GN_VEC4 more, real off_plane_m)
 }
 
 // FilterInput::spread, `size` being GpuLight::size.x. A lamp is a sphere: the cone that touches it has the sine
-// radius / distance. What is inside is as near as half as far again.
+// radius / distance. At most 0.9 of distance^2 is taken as radius^2, inside of the sphere too.
 GN_FN real lightSpread(GN_VEC4 place, real3 toward, real size)
 {
     if (real(place.w) == real(0.0)) {
@@ -149,7 +149,7 @@ GN_FN real sliceDepth(GpuView view, real3 p)
     return dotRow(real4(view.slice_axis), p) / dotRow(real4(view.sector_w), p);
 }
 
-// What a view's visibility counts for where a view before it serves the point too: the one fades over into the other.
+// The weight of a view's visibility where a view before it serves the point too: that view fades over into this one.
 // `depth`: sliceDepth().
 GN_FN real viewShare(GpuView view, real depth)
 {
@@ -203,9 +203,9 @@ GN_FN real grazedVisibility(GpuView view, MapRows rows, real texel_depth, BiasRu
     return far < real(0.999) ? far : step(min(m, real(1.0)) - bias, between);
 }
 
-// Of a receiver inside the view: `rows` are rowsAt() its place, `point` what projectReceiver() makes of it; `p` eye-relative,
-// `n` its unit geometric normal. f.layer, what describes the view and the footprint are filled in here; the latter is
-// made of `steps` (pixelSteps()) where f.moments.sampling asks for it.
+// The visibility of a receiver inside the view. `rows`: rowsAt() its place; `point`: its projectReceiver(); `p`:
+// eye-relative; `n`: its unit geometric normal. Fills in f.layer, the view's members and the footprint, which is made
+// from `steps` (pixelSteps()) where f.moments.sampling needs it.
 GN_FN real viewVisibility(int filter_number, GpuView view, MapRows rows, MapPoint point, FilterInput f,
                           PixelSteps steps, real3 p, real3 n)
 {

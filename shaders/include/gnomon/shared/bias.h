@@ -43,7 +43,7 @@ struct BiasRule {
     // By hand the next three are ignored.
     real snap_texels;  // a stored depth is that of a point up to so far away, along each axis of the map
     real off_plane_m;  // how far the receiver may be off the plane that the map holds
-    real normal_error; // of the receiver's normal, radians
+    real normal_error; // error of the receiver's normal, radians
 };
 
 // A receiver on a map. At d texels from it, its reference depth is
@@ -59,14 +59,14 @@ struct MapPoint {
     real cap;
     real w;           // > 0 in front of a perspective light; 1 for an orthographic one
     real texel_depth; // a texel's width here, as a metric difference
-    real plane_doubt; // what the plane's depth is off by a texel away, for the normal's error
+    real plane_doubt; // error of the plane's depth a texel away, from the normal's error
 };
 
 // A plane is followed up to this tangent of the angle between its normal and the light. Beyond it (87 degrees) the
 // Lambert term is below 5 %, and neighbours would be compared at depths that have nothing to do with the receiver.
 GN_CONST real kSteepest = real(20.0);
-// What curvature and creases of a receiver may differ from its plane, in texels of depth: this, and this per texel of
-// reach.
+// How far a receiver's curvature and creases may leave its plane, in texels of depth: a constant, and a part per texel
+// of reach.
 GN_CONST real kRoughness = real(0.2);
 GN_CONST real kRoughnessPerTexel = real(0.1);
 // A device draws on a grid of 2^bits steps to a pixel (VkPhysicalDeviceLimits::subPixelPrecisionBits). It moves each

@@ -19,10 +19,10 @@ GN_FN real practicalSplit(real near_m, real far_m, real lambda, int i, int count
 // A logarithm has to start somewhere: no split is nearer than this share of the far end.
 GN_CONST real kNearestSplit = real(1e-4);
 
-// What is divided is at least so long, as a share of its near end.
+// The least length of the divided range, as a share of its near end.
 GN_CONST real kLeastRange = real(1e-6);
 
-// What is divided: depths along the camera's view, metres.
+// The range to divide: depths along the camera's view, metres.
 struct SplitRange {
     real near_m;
     real far_m;
@@ -72,8 +72,8 @@ GN_CONST real kFinestShare = real(1.0 / 512.0);
 // longer side: its texels grow by half at most.
 GN_CONST real kMostRoom = real(0.25);
 
-// Rectangles are low x, y, high x, y. What is left of `wanted`, which is `seen` with room on all sides, when the room
-// is no more than a map can spare. `reach` is the length of one and the same ray along both axes; 0: there are no rays.
+// Rectangles are low x, y, high x, y. Limits the room of `wanted`, which is `seen` with room on all sides, to what a
+// map can spare. `reach` is the length of one and the same ray along both axes; 0: there are no rays.
 GN_FN real4 spareRoom(real4 seen, real4 wanted, real2 reach)
 {
     if (min(reach.x, reach.y) <= real(0.0)) {
@@ -85,9 +85,9 @@ GN_FN real4 spareRoom(real4 seen, real4 wanted, real2 reach)
                  min(wanted.w, seen.w + most.y));
 }
 
-// What `low` to `high` on an axis of the base map, in [-1, 1], becomes: all of the cascade's map but for the filter's
-// border. `widen` is texels / (texels - 2 border). x: scale, 1 to 1/kFinestShare; y: centre. A place is (place - y) x
-// then. Nothing (low > high) is given the whole base map, and so is what would be coarser than that.
+// Maps `low` to `high` on an axis of the base map, in [-1, 1], to all of the cascade's map inside the filter's border.
+// `widen` is texels / (texels - 2 border). x: scale, 1 to 1/kFinestShare; y: centre. A place then becomes (place - y)
+// x. An empty range (low > high) gets the whole base map, and so does one that would be coarser than that.
 GN_FN real2 axisPlace(real low, real high, real widen)
 {
     real half_size = max((high - low) * real(0.5) * widen, kFinestShare);

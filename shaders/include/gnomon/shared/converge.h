@@ -10,14 +10,15 @@
 #include "portability.h"
 GN_BEGIN
 
-// `before`: the mean of frames that weigh `count` together; `now`: one more, of this weight. Of weights of 1 where the
-// count grows with the frames, this is their arithmetic mean; where it is held at n, an exponential one by 1 / (n + 1).
+// `before`: the mean of frames that weigh `count` together; `now`: one more, of this weight. With weights of 1 this is
+// the arithmetic mean where the count grows with the frames, and an exponential one by 1 / (n + 1) where the count is
+// held at n.
 GN_FN real joinedMean(real before, real count, real now, real weight)
 {
     return before + (now - before) * weight / (count + weight);
 }
 
-// How much a map's texel says of a place in it, 0 .. 1: 1 at the texel's centre, which is what was drawn, 0 at its rim.
+// How far a map's texel holds for a place in it, 0 .. 1: 1 at the texel's centre, where it was drawn, 0 at its rim.
 // `place`: texel coordinates.
 GN_FN real texelConfidence(real2 place)
 {
@@ -37,14 +38,15 @@ GN_FN real confidencePower(real stood, real most)
     return most * min(stood / real(20.0), real(1.0));
 }
 
-// What it counts for then. Its mean over a texel is 1.
+// The weight of such a read. Its mean over a texel is 1.
 GN_FN real frameWeight(real confidence, real power)
 {
     return real(0.5) * (power + real(1.0)) * (power + real(2.0)) * pow(confidence, power);
 }
 
-// A visibility and how far it is to be trusted in one number: v - 2 k, by the kth of these shares of confidence. What
-// goes without is v itself. No k makes it larger, so that the least of what is drawn to a channel is the one.
+// A visibility and its confidence in one number: v - 2 k, with the kth of these steps of confidence. A visibility
+// without one is v itself. A k never makes the number larger, so that the least of all values drawn to a channel is the
+// right one.
 GN_CONST real kConfidences = real(8.0);
 
 GN_FN real packSeen(real v, real confidence)

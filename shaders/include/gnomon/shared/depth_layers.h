@@ -19,11 +19,11 @@ GN_BEGIN
 
 // No layer is narrower, so that its metric magnifies rounding and slopes at most so much.
 GN_CONST real kLeastLayerWidth = real(0.015625); // 1 / 64
-// What GpuDepthLayers holds beyond the last layer: no receiver is ever there.
+// The value in GpuDepthLayers beyond the last layer: no receiver is ever there.
 GN_CONST real kNoLayerBegins = real(2.0);
 
 // (1) A layer's own metric: d'' = clamp((d - near) / (far - near), 0, 1). `layer` as in GpuDepthLayers: near, far,
-// begins, mean or begins. What is not a number is the far end: lit.
+// begins, mean or begins. NaN becomes the far end: lit.
 GN_FN real layerMetric(real d, real4 layer)
 {
     real x = (d - layer.x) / max(layer.y - layer.x, real(1e-6));
@@ -77,13 +77,13 @@ GN_FN real4 layerOfWorld(bool first, real far_before, real near, real far)
     return real4(near, far, begins, begins);
 }
 
-// A receiver is in the last layer for which this holds. What is not a number is in none.
+// A receiver is in the last layer for which this holds. NaN is in none.
 GN_FN bool beginsBefore(real4 layer, real d)
 {
     return layer.z <= d;
 }
 
-// Bins of the histogram; what is not a number is in the last one.
+// Bins of the histogram; NaN is in the last one.
 GN_FN int binOf(real d, int bins)
 {
     real x = d < real(1.0) ? max(d, real(0.0)) : real(1.0);

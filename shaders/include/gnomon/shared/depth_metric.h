@@ -20,7 +20,7 @@ GN_FN real depthMetricPlane(real3 p, real4 metric)
     return dot(real3(metric.x, metric.y, metric.z), p) + metric.w;
 }
 
-// What a map holds: casters nearer than the near plane are clamped onto it ("pancaked"), so they still cast.
+// The depth that a map holds: casters nearer than the near plane are clamped onto it ("pancaked"), so they still cast.
 GN_FN real depthMetricStored(real d)
 {
     return clamp(d, real(0.0), real(1.0));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exponential warps of depth: what a map of esm and evsm stores of one depth, and visibility of what is read back.
-// Based on: T. Annen, T. Mertens, H.-P. Seidel, E. Flerackers, J. Kautz, "Exponential Shadow Maps", Graphics Interface
-// 2008, and M. Salvi, "Rendering Filtered Shadows with Exponential Shadow Maps", ShaderX6, 2008:
+// Exponential warps of depth: the values that a map of esm and evsm stores for one depth, and the visibility of values
+// that are read back. Based on: T. Annen, T. Mertens, H.-P. Seidel, E. Flerackers, J. Kautz, "Exponential Shadow Maps",
+// Graphics Interface 2008, and M. Salvi, "Rendering Filtered Shadows with Exponential Shadow Maps", ShaderX6, 2008:
 //   (1) V = sat(e^(-c d) E[e^(c z)]), d the receiver's depth, z the occluders';
 // A. Lauritzen, M. McCool, "Layered Variance Shadow Maps", Graphics Interface 2008, section 5:
 //   (2) the warps e^(c+ z) and -e^(-c- z); (3) Chebyshev's bound in each of them holds, so the smaller one does too;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the passes that make a map filterable are given, declared once for both sides.
+// The inputs of the passes that make a map filterable, declared once for both sides.
 #ifndef GNOMON_FILTER_PASS_H
 #define GNOMON_FILTER_PASS_H
 
@@ -18,8 +18,8 @@ namespace gnomon::shared {
 #endif
 
 GN_FILTER_CONST int kBlockTexels = 32;     // side of the squares that are blurred or left out as one
-GN_FILTER_CONST int kMostImageLayers = 4;  // of one map: lvsm with eight layers
-GN_FILTER_CONST int kMostBlurRadius = 31;  // less than a block: what reaches into a block is in a neighbour of it
+GN_FILTER_CONST int kMostImageLayers = 4;  // image layers of one map: lvsm with eight layers
+GN_FILTER_CONST int kMostBlurRadius = 31;  // less than a block, so that only neighbours of a block reach into it
 GN_FILTER_CONST int kWalkTexels = 8;       // that a thread makes where nothing is blurred
 GN_FILTER_CONST int kBlurTableLength = 48; // weights by distance; zeros from the radius on, as far as shaders look
 
@@ -27,13 +27,14 @@ GN_FILTER_CONST int kBlurTableLength = 48; // weights by distance; zeros from th
 struct FilterPassPlace {
     GN_IVEC4 source;      // x, y: the tile's first texel; z: its first image layer; w: slot of its depth layers (lvsm)
     GN_IVEC4 target;      // likewise, where the pass writes to; w: image layers of the map
-    GN_IVEC4 size;        // x, y: of the tile in texels, at the level that is written; z, w: in blocks
-    GN_IVEC4 strips;      // of the scratch image, x: width in texels; y: how many for an image layer of the map
+    GN_IVEC4 size;        // x, y: the tile in texels, at the level that is written; z, w: in blocks
+    GN_IVEC4 strips;      // the scratch image's, x: width in texels; y: how many for an image layer of the map
     GN_PLACE_VEC4 metric; // x: near / far of the view, 1 under a parallel light
 };
 
-// Of the blur. weight[d].x is the weight of the texel at distance d. y and z hold for reading two texels at once with a
-// linear filter: weight[0] the middle alone, weight[i] the texels 2 i - 1 and 2 i together; y: distance, z: weight.
+// The blur's weights. weight[d].x is the weight of the texel at distance d. y and z are for reading two texels at once
+// with a linear filter: weight[0] is the middle alone, weight[i] the texels 2 i - 1 and 2 i together; y: distance, z:
+// weight.
 struct BlurKernel {
     GN_PLACE_VEC4 weight[kBlurTableLength];
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the passes that fit cascades to the camera's depth buffer read and write, declared once for both sides. 16-byte
-// members, as in gpu_structs.h.
+// The data that passes read and write to fit cascades to the camera's depth buffer, declared once for both sides.
+// 16-byte members, as in gpu_structs.h.
 #ifndef GNOMON_GPU_CASCADES_H
 #define GNOMON_GPU_CASCADES_H
 
@@ -22,8 +22,8 @@ GN_CASCADE_CONST int kMostCascades = 6;
 GN_CASCADE_CONST int kBoundsGroup = 16;   // threads of a group along x and y
 GN_CASCADE_CONST int kBoundsPixels = 4;   // pixels that a thread looks at along x and y
 GN_CASCADE_CONST int kCompleteGroup = 64; // views that one group of cascade_constants.comp completes
-GN_CASCADE_CONST int kDepthKeys = 2;      // of GpuCascadeKeys::key: least and greatest depth, then the cascades' bounds
-GN_CASCADE_CONST int kBoundKeys = 8;      // of a cascade: x, y low, then high; the same again with room on all sides
+GN_CASCADE_CONST int kDepthKeys = 2;      // in GpuCascadeKeys::key: least and greatest depth, then the cascades' bounds
+GN_CASCADE_CONST int kBoundKeys = 8;      // for a cascade: x, y low, then high; then both with room on all sides
 
 // One light that is fitted on the GPU.
 struct GpuCascadeLight {
@@ -53,11 +53,11 @@ struct GpuCascadeKeys {
     GN_CASCADE_UINT key[kBoundKeys * kMostCascades + 4]; // cascade i's from kBoundKeys i + kDepthKeys on
 };
 
-// What was found for a view.
+// The fit that was found for a view.
 struct GpuFittedView {
     GN_VEC4 place; // x, y: scale, z, w: centre; see casterPlaced()
     GN_VEC4 slice; // x: begin, y: end, z: one over the width of the blend (0: none), w: ViewProjection::texel_m
-    GN_VEC4 seen;  // of the base map, what the slice's pixels lie in: low x, y, high x, y; low > high: none
+    GN_VEC4 seen;  // rectangle of the base map that the slice's pixels lie in: low x, y, high x, y; low > high: none
 };
 
 #ifdef __cplusplus

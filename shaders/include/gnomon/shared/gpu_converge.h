@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pass that joins masks over frames reads, declared once for both sides. 16-byte members, as in gpu_structs.h.
+// The inputs of the pass that joins masks over frames, declared once for both sides. 16-byte members, as in
+// gpu_structs.h.
 #ifndef GNOMON_GPU_CONVERGE_H
 #define GNOMON_GPU_CONVERGE_H
 
@@ -15,7 +16,7 @@ inline constexpr int kMovedBoxes = 16;
 const int kMovedBoxes = 16;
 #endif
 
-// Of one layer of the mask: four lights.
+// The inputs for one layer of the mask: four lights.
 struct GpuConverge {
     GN_VEC4 before_x; // as Reprojection in lib/reprojection.glsl
     GN_VEC4 before_y;

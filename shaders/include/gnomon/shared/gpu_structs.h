@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What shaders read to find a light's visibility, declared once for both sides. Everything is made of 16-byte members,
-// so that std140, std430 and C++ agree. "Eye-relative" is world space with the camera's eye as origin, which keeps
-// single precision exact near the camera wherever in the world it is.
+// The data that shaders read to find a light's visibility, declared once for both sides. Everything is made of 16-byte
+// members, so that std140, std430 and C++ agree. "Eye-relative" is world space with the camera's eye as origin, which
+// keeps single precision exact near the camera wherever in the world it is.
 #ifndef GNOMON_GPU_STRUCTS_H
 #define GNOMON_GPU_STRUCTS_H
 
@@ -33,21 +33,20 @@ struct GpuView {
     GN_VEC4 metric;
     GN_VEC4 tile; // first and one-past-last texel a receiver may be at: x0, y0, x1, y1; the kernel's reach is taken off
     GN_VEC4 scale; // x: texel_m, y: range_m, z: layer, w: part of a texel with two maps (paired_depth.h): 0 or 1
-    // Of an orthographic view, see MapRows. Of a paraboloid x, y and w take an eye-relative point to q (paraboloid.h),
-    // metric.w is minus near in lengths of far - near, plane_x is `places` of paraboloidRows(), and plane_y.w is 1; of
-    // others that is 0. Of ViewServes::layered ones plane_x.w is one over ViewServes::rim, of others that are no
-    // paraboloids 0
+    // For an orthographic view, see MapRows. For a paraboloid x, y and w take an eye-relative point to q
+    // (paraboloid.h), metric.w is minus near in lengths of far - near, plane_x is `places` of paraboloidRows(), and
+    // plane_y.w is 1, else 0. For ViewServes::layered views plane_x.w is one over ViewServes::rim, for others that are
+    // no paraboloids 0
     GN_VEC4 plane_x;
     GN_VEC4 plane_y;
     GN_VEC4 plane_w;
-    GN_VEC4 whole; // all of its tile, as `tile`
+    GN_VEC4 whole; // all of its tile, in the form of `tile`
     GN_VEC4 more; // x: slot of its depth layers (lvsm), y: coarsest mip level, or level of blocks, that it may read, z:
                   // near / far, w: one past its layer of the maps of tints; 0: no blended caster is in it
-    // What of ViewSlice it serves: x: begin, y: end, z: one over the width of the blend; w: how far it has faded in
-    // over views before it; while the GPU has yet to fit it (cascade_constants.comp): minus one past its number in the
-    // plan
+    // Its ViewSlice: x: begin, y: end, z: one over the width of the blend; w: how far it has faded in over views before
+    // it; while the GPU has yet to fit it (cascade_constants.comp): minus one past its number in the plan
     GN_VEC4 slice;
-    GN_VEC4 slice_axis; // row that takes an eye-relative point to a depth, of which `slice` is in units of sector_w's
+    GN_VEC4 slice_axis; // row that takes an eye-relative point to a depth; `slice` is this over sector_w's
     GN_VEC4 sector_x;   // rows that take an eye-relative point to its place among views side by side: ViewSector
     GN_VEC4 sector_y;
     GN_VEC4 sector_w;
@@ -68,12 +67,12 @@ struct GpuLight {
     // positions these are the earlier one's, z: first and w: count of the later one's, else w is 0
     GN_UVEC4 views;
     GN_VEC4 steps; // where it is seen from two positions: sun_steps.h
-    // x: of Plan::options; its GpuConstants are those of this. Of filters id and depth-id y: of pack::fillObjects()'s
-    // vectors the first with its ids, z: how many objects there are, w: 1: ids are of pieces
+    // x: index into Plan::options, whose GpuConstants it uses. For filters id and depth-id y: the first vector of
+    // pack::fillObjects() with its ids, z: how many objects there are, w: 1: pieces have ids
     GN_UVEC4 options;
 };
 
-// What a light's options come to, for the filter that reads its maps.
+// The numbers of a light's options, for the filter that reads its maps.
 struct GpuRule {
     // x: 1: automatic; by hand 0, and constant_m, slope, normal_texels (BiasRule). Automatic: y: snap_texels; z: how
     // far along each axis of the picture the point of a receiver may lie, pixels; w: normal_error
@@ -92,7 +91,7 @@ struct GpuRule {
     GN_VEC4 disc_points[kDiscPoints / 2]; // two points of the unit disc each
 };
 
-// What a picture's pixels have in common.
+// The numbers that all of a picture's pixels share.
 struct GpuScreen {
     GN_VEC4 eye_x; // rows of eye_from_ndc: (x, y, depth, 1) to eye-relative homogeneous
     GN_VEC4 eye_y;

@@ -20,8 +20,8 @@
 #include "depth_layers.h"
 GN_BEGIN
 
-GN_CONST int kGapBins = 256; // of depth, from 0 to 1
-GN_CONST int kLeastBins = 4; // of a layer: kLeastLayerWidth
+GN_CONST int kGapBins = 256; // bins of depth, from 0 to 1
+GN_CONST int kLeastBins = 4; // least bins of a layer: kLeastLayerWidth
 GN_CONST int kGapColumns = kGapBins + 1;
 
 // V^2 h of (1), in 1/16384, at most 256 and mostly far less: sums of 2^20 fit 32 bits. Receivers right behind b are
@@ -41,7 +41,8 @@ GN_FN int nearBin(int begins, int ends, real overlap)
     return max(int(floor(real(begins) - overlap * real(ends - begins))), 0);
 }
 
-// What a layer loses. `left`: of (2), `all`: what a single layer would lose of it, `bins`: the layer's width.
+// The loss of a layer. `left`: its loss by (2); `all`: the loss by (2) of a single layer over all; `bins`: the layer's
+// width.
 GN_FN real layerLoss(real left, real all, int bins)
 {
     real width = real(bins) / real(kGapBins);

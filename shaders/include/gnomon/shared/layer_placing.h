@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the passes that place layers of depth are pushed. 16-byte members, as in gpu_structs.h.
+// Push constants of the passes that place layers of depth. 16-byte members, as in gpu_structs.h.
 #ifndef GNOMON_LAYER_PLACING_H
 #define GNOMON_LAYER_PLACING_H
 
@@ -14,7 +14,7 @@ inline constexpr int kMostPairsAlong = 256;
 #else
 #define GN_VEC4 vec4
 #define GN_IVEC4 ivec4
-const int kDepthBins = 1024;       // of a view's histogram: at 300 m of depth, 0.3 m each
+const int kDepthBins = 1024;       // bins of a view's histogram: at 300 m of depth, 0.3 m each
 const int kMostSamplesAlong = 512; // texels that are looked at along a tile's side: every fourth one of 2048
 const int kMostPairsAlong = 256;   // the same where layers are placed by gaps: each with two others beside it
 #endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known of a square of a map's texels without reading them: the nearest and the farthest depth, as two numbers
-// of 16 bits in one of 32. They are rounded outwards, so that what they say of all texels holds. A block of level L has
-// 2^L texels on a side and begins at a multiple of that on the map's page, whoever's tiles lie there. The last level
-// has one block.
+// Blocks bound a square of a map's texels without reading them: the nearest and the farthest depth, as two numbers of
+// 16 bits in one of 32. Both are rounded outwards, so that they bound every texel. A block of level L has 2^L texels on
+// a side and begins at a multiple of that on the map's page, across the tiles that lie there. The last level has one
+// block.
 #ifndef GNOMON_MAP_BLOCKS_H
 #define GNOMON_MAP_BLOCKS_H
 #include "portability.h"
@@ -12,7 +12,7 @@ GN_CONST int kBlockLevelsOfPass = 2;
 GN_CONST int kBlockGroup = 8; // threads of a group along x and y; each makes a block of the pass's coarser level
 GN_CONST real kBlockSteps = real(65535.0);
 
-// x: nearest, y: farthest depth. What is not a number says nothing: 0 and 1.
+// x: nearest, y: farthest depth. NaN gives no bounds: 0 and 1.
 GN_FN real2 blockDepths(int both)
 {
     return real2(real(both & 0xffff), real((both >> 16) & 0xffff)) / kBlockSteps;

@@ -8,13 +8,13 @@
 #include "portability.h"
 GN_BEGIN
 
-// Of a mask of half the size. So much of the weights has to be of the pixel's surface: of two texels that it lies
-// between one will do, of four two.
+// For a mask of half the size: the least share of the weights that must lie on the pixel's surface. Between two texels
+// one is enough, between four two.
 GN_CONST real kUpsampleLeast = real(0.45);
-// Texels of one surface whose visibility is farther apart have an edge of a shadow between them.
+// Texels of one surface whose visibility differs by more have an edge of a shadow between them.
 GN_CONST real kUpsampleApart = real(0.1);
 
-// The bilinear weight of corner 0 .. 3: bit 0 is the right one, bit 1 the lower one. `part`: where between them.
+// The bilinear weight of corner 0 .. 3: bit 0 is the right one, bit 1 the lower one. `part`: the place between them.
 GN_FN real cornerShare(real2 part, int corner)
 {
     real x = (corner & 1) != 0 ? part.x : real(1.0) - part.x;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all filterable maps have in common: how a depth becomes the coordinate whose moments are stored.
+// Shared by all filterable maps: how a depth becomes the coordinate whose moments are stored.
 #ifndef GNOMON_MOMENT_RULE_H
 #define GNOMON_MOMENT_RULE_H
 #include "portability.h"
@@ -22,15 +22,15 @@ struct MomentRule {
     real exponent;            // esm: c; evsm: c+
     real exponent_negative;   // evsm: c-
     real moment_bias;         // msm
-    real min_variance;        // of d', absolute
-    real min_variance_texels; // of d', as the square of so many texel depths; the larger one holds. msm: of the blur,
-                              // its standard deviation in texels, for what a slope spreads
+    real min_variance;        // variance of d', absolute
+    real min_variance_texels; // variance of d', as the square of so many texel depths; the larger one holds. msm: the
+                              // blur's standard deviation in texels, for the spread of a slope
     real rounding;            // evsm, warp of c+: share of a second moment that rounding may take
     real rounding_negative;   // evsm, warp of c-: the same
     real linstep;
     real power;
-    real lighten;     // of every filter: lightenedVisibility()
-    real lighten_cut; // the same
+    real lighten;     // for every filter: lightenedVisibility()
+    real lighten_cut; // for every filter: lightenedVisibility()
     real anisotropy;
 };
 
@@ -41,16 +41,16 @@ GN_FN real lightenedVisibility(real v, real lighten, real cut)
     return min(v * (real(1.0) - cut) + lighten, real(1.0));
 }
 
-// What moments say of the depths before a receiver.
+// The depths before a receiver, as moments describe them.
 struct Occluders {
-    real share;  // of what was averaged that lies before it
-    real height; // mean of that over the receiver, in the metric
+    real share;  // share of the averaged texels that lies before it
+    real height; // their mean height over the receiver, in the metric
 };
 
-// What encoders are given.
+// The inputs of encoders.
 struct EncodeInput {
     real depth;    // [0, 1]: linear or z / w, not yet remapped
-    real variance; // that this texel adds to its own second moment, in squares of `depth`
+    real variance; // variance that this texel adds to its own second moment, in squares of `depth`
     real4 first;   // lvsm: GpuDepthLayers::layer of the two layers of this image layer
     real4 second;
 };
@@ -74,7 +74,7 @@ GN_FN real zOverWSlope(real m, real near_over_far)
     return near_over_far / (q * q);
 }
 
-// The depth that is stored, from the linear metric: clamped, in [0, 1]. What is not a number is the far plane: lit.
+// The depth that is stored, from the linear metric: clamped, in [0, 1]. NaN becomes the far plane: lit.
 GN_FN real momentDepth(real m, int flags, real near_over_far)
 {
     real d = m <= real(1.0) ? max(m, real(0.0)) : real(1.0);

@@ -119,9 +119,9 @@ GN_FN real chebyshevBound(real m1, real m2, real t, real least)
     return beyond > real(0.0) ? variance / (variance + beyond * beyond) : real(1.0);
 }
 
-// What (2) takes for occluders. Of mean M1 and visibility p of t, their mean lies (t - M1) / (1 - p) before t: B. Yang
-// et al., "Variance Soft Shadow Mapping", 2010, eq. 4. Written out with (2), nothing small is divided by. `scale`: of
-// the stored coordinate against the metric.
+// The occluders that (2) assumes. With mean M1 and visibility p at t, their mean lies (t - M1) / (1 - p) before t: B.
+// Yang et al., "Variance Soft Shadow Mapping", 2010, eq. 4. Written out with (2), nothing is divided by a small number.
+// `scale`: stored coordinate per metric.
 GN_FN Occluders chebyshevOccluders(real m1, real m2, real t, real least, real scale)
 {
     real variance = max(m2 - m1 * m1, least);
@@ -140,8 +140,8 @@ GN_FN real markovBound(real m1, real t, real slack)
     return t > most ? most / t : real(1.0);
 }
 
-// What is done against light bleeding, in this order: (3) linstep(a, 1, V), GPU Gems 3, ch. 8.4.1; (4) V^k, Marinescu
-// 2011. Always in [0, 1]; what is not a number is lit.
+// Reduces light bleeding, in this order: (3) linstep(a, 1, V), GPU Gems 3, ch. 8.4.1; (4) V^k, Marinescu 2011. Always
+// in [0, 1]; NaN is lit.
 GN_FN real shapeVisibility(real visibility, MomentRule rule)
 {
     real v = visibility < real(1.0) ? max(visibility, real(0.0)) : real(1.0);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Four moments of depth: what a map of msm stores, and the least shadow that they allow.
+// Four moments of depth, as a map of msm stores them, and the least shadow that they allow.
 // Based on: C. Peters, R. Klein, "Moment Shadow Mapping", I3D 2015 (the bounds: algorithm 2 on the whole line,
 // "Hamburger", algorithm 3 on the interval, "Hausdorff"; the bias of section 4.4), and C. Peters, C. Muenstermann,
 // N. Wetzstein, R. Klein, "Improved Moment Shadow Maps for Translucent Occluders, Soft Shadows and Single Scattering",
 // JCGT 6(1), 2017 (depth in [-1, 1]; the sparse basis for 16 bits; the bias vector (0, 0.628, 0, 0.628)).
 //
-// Of all distributions with moments b1 .. b4, the one with the least weight before the receiver's depth z0 has its
-// weight at z0 and at the two roots of K(z0, z) = 0 (2015, algorithm 2), where K is the quadratic form of the inverse
-// of the Hankel matrix B = (1, b1, b2; b1, b2, b3; b2, b3, b4), of (1, z0, z0^2) and (1, z, z^2). With B = L D L^T,
+// Among all distributions with moments b1 .. b4, the one with the least weight before the receiver's depth z0 has its
+// weight at z0 and at the two roots of K(z0, z) = 0 (2015, algorithm 2). K is the quadratic form of the inverse of the
+// Hankel matrix B = (1, b1, b2; b1, b2, b3; b2, b3, b4), for (1, z0, z0^2) and (1, z, z^2). With B = L D L^T,
 //   (1) p1(z) = z - b1, p2(z) = z^2 - b2 - l (z - b1), K(x, z) = 1 + p1(x) p1(z) / d1 + p2(x) p2(z) / d2.
 // Departures, all so that single precision is enough and nothing divides by a difference of roots:
 //   (2) the weight at each of these points is 1 / K(z, z) (Christoffel's number), at least 0 and at most 1 as it
@@ -28,10 +28,10 @@ GN_BEGIN
 GN_CONST real kBiasMoment = real(0.628);
 GN_CONST real kBiasSecond = real(0.5);
 GN_CONST real kBiasFourth = real(0.375);
-// Least pivots: what rounding leaves of a pivot that is 0. The last one is 0 for two depths, as a receiver with a
-// little of an occluder over it is. What rounding of 16 bits leaves of it instead is noise, which moves the roots by
-// more than any bias of the receiver: a lit one goes black where a root falls before it. As large as that noise, it
-// does not. A larger moment bias would do the same, but acts everywhere, and lets light in at contacts.
+// Least pivots: about the rounding error of a pivot that is 0. The last one is 0 for two depths, as a receiver with a
+// little of an occluder over it is. Rounding to 16 bits makes it noise instead, which moves the roots by more than any
+// bias of the receiver: a lit one goes black where a root falls before it. A pivot as large as that noise prevents
+// this. A larger moment bias would do the same, but acts everywhere, and lets light in at contacts.
 GN_CONST real kLeastPivot = real(1e-7);
 GN_CONST real kLeastLastPivot = real(1e-12);
 GN_CONST real kLeastLastPivot16 = real(1e-5);
@@ -128,8 +128,8 @@ GN_FN real hamburgerVisibility(Hankel h, real z0)
     return k.y > real(0.0) ? real(1.0) / k.x : real(1.0);
 }
 
-// What it takes for occluders: the roots below z0. Of two of them, the mean, which mean and weights of all leave.
-// `scale`: of the coordinate against the metric.
+// The occluders that the bound assumes: the roots below z0. For two of them it is their mean, which follows from the
+// mean and weights of all. `scale`: coordinate per metric.
 // Source: C. Peters et al., "Beyond Hard Shadows: Moment Shadow Maps for Single Scattering, Soft Shadows and
 // Translucent Occluders", I3D 2016.
 GN_FN Occluders hamburgerOccluders(Hankel h, real z0, real scale)
@@ -197,14 +197,14 @@ GN_FN real4 biasedMoments(real4 b, MomentRule rule)
     return mix(b, real4(real(0.0), second, real(0.0), fourth), rule.moment_bias);
 }
 
-// Of what is read from a map, in either basis.
+// The biased moments of a value that is read from a map, in either basis.
 GN_FN real4 usableMoments(real4 stored, MomentRule rule)
 {
     real4 b = hasFlag(rule.flags, kMomentQuantised) ? momentsOfQuantised(stored) : stored;
     return biasedMoments(clamp(b, real4(real(-1.0)), real4(real(1.0))), rule);
 }
 
-// What is not a number counts as lit.
+// NaN counts as lit.
 GN_FN real msmVisibility(real4 stored, real t, MomentRule rule)
 {
     real4 b = usableMoments(stored, rule);

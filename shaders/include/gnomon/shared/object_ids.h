@@ -23,12 +23,13 @@ struct IdRule {
     real steps; // depth-id: of what a texel's depth is rounded to; less than 0: minus that, and the depth is the map's
 };
 
-// Of IdOf::face: pieces of an object that have numbers of their own, and where in a pixel's number its piece begins.
+// For IdOf::face: pieces of an object that have numbers of their own, and the bit in a pixel's number at which its
+// piece begins.
 GN_CONST int kMostPieces = 4096;
 GN_CONST int kPieceShift = 20;
 
-// An object's own range is its box's along the light and this share of its radius more, so that rounding leaves what is
-// at its ends inside.
+// An object's own range is its box's along the light and this share of its radius more, so that points at its ends stay
+// inside in spite of rounding.
 GN_CONST real kObjectPad = real(0.001);
 
 GN_FN real idOfTexel(real stored, real ids)
@@ -59,17 +60,17 @@ GN_FN bool idIsBehind(real own, real id, IdRule rule)
     return own > real(0.0) && id != own && comes_after;
 }
 
-// Of the four texels of a gather (filter_types.glsl) the one that is nearest; `part`: where the receiver is between
-// their centres, from the top left one.
+// The nearest of the four texels of a gather (filter_types.glsl). `part`: the receiver's place between their centres,
+// from the top left one.
 GN_FN real nearestOfFour(real4 four, real2 part)
 {
     real2 row = part.y < real(0.5) ? real2(four.w, four.z) : real2(four.x, four.y);
     return part.x < real(0.5) ? row.x : row.y;
 }
 
-// What the four texels around a receiver say, 0 or 1. `lit`: 1 for those that light it by themselves. `lifted`: as
-// FilterInput has it; there no texel need be the receiver's own, so what is behind lights it by any test but the
-// nearest.
+// The visibility by the four texels around a receiver, 0 or 1. `lit`: 1 for texels that light it by themselves.
+// `lifted`: as in FilterInput. With it no texel need be the receiver's own, so an object behind lights the receiver by
+// every test except the nearest.
 GN_FN real idVisibility(IdRule rule, real own, real lifted, real4 ids, real4 lit, real2 part)
 {
     real any = max(max(lit.x, lit.y), max(lit.z, lit.w));
@@ -82,13 +83,13 @@ GN_FN real idVisibility(IdRule rule, real own, real lifted, real4 ids, real4 lit
 }
 
 // Half the length that a box spans along the light, in units of `along`, the gradient of the depth metric. `half_size`:
-// of the box.
+// half the box's size.
 GN_FN real objectExtent(real3 along, real3 half_size)
 {
     return dot(abs(along), half_size) + kObjectPad * length(along) * length(half_size);
 }
 
-// Depth within that range, 0 .. 1, of a point that is so far from the box's centre.
+// A point's depth within that range, 0 .. 1, by its distance from the box's centre.
 GN_FN real objectDepth(real3 along, real3 from_centre, real extent)
 {
     return real(0.5) + dot(along, from_centre) / max(real(2.0) * extent, real(1e-30));

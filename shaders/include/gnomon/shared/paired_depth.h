@@ -16,8 +16,8 @@ GN_CONST int kDepthChannel = 1;   // two maps, a channel each
 GN_CONST int kDepthBytes = 2;     // two maps, two channels of 8 bits each, the high byte first
 GN_CONST int kDepthSmoothies = 3; // as kDepthAlone, with smoothies beside the map (smoothies.h)
 
-// The two bytes of a depth in [0, 1], as the numbers in [0, 1] that a channel of 8 bits takes. What it stands for is at
-// most 0.5 / 65535 away, and never less for a greater depth.
+// The two bytes of a depth in [0, 1], as the numbers in [0, 1] that a channel of 8 bits takes. The depth that they
+// stand for is at most 0.5 / 65535 away, and never less for a greater depth.
 GN_FN real2 depthToBytes(real depth)
 {
     real code = floor(depth * real(65535.0) + real(0.5));
@@ -30,7 +30,7 @@ GN_FN real depthFromBytes(real high, real low)
     return (real(65280.0) * high + real(255.0) * low) / real(65535.0);
 }
 
-// What a caster writes to all channels. `depth` in [0, 1].
+// The value that a caster writes to all channels. `depth` in [0, 1].
 GN_FN real4 pairedTexel(int holding, real depth)
 {
     real4 texel = real4(depth);

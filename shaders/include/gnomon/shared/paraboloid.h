@@ -7,7 +7,7 @@
 #include "bias.h"
 GN_BEGIN
 
-// What is straight behind has no place. Closer to that than some 4 degrees, places stay finite.
+// A point straight behind has no place. Within some 4 degrees of that direction, places are kept finite.
 GN_CONST real kParaboloidBehind = real(0.001953125);
 
 // From the light, q.z along the map's axis. In front of the light the place is in the unit disc, on the axis its
@@ -26,11 +26,11 @@ GN_FN real3 paraboloidDirection(real2 place)
     return real3(real(2.0) * place.x, real(2.0) * place.y, real(1.0) - r2) / (real(1.0) + r2);
 }
 
-// Rows that are exact at `p` and to the first order beside it, so that whatever reads a map by its rows reads this one:
-// of the perspective map whose axis is the ray to `p`. Along a surface that the light grazes depth is far from a
-// straight line, and a perspective map's rows know. `map` has in x, y and w rows that take a point to q, in lengths of
-// far - near, and in metric.w minus near in these. `places`: xy: how many texels a place of 1 is from the disc's
-// middle, zw: where that is. Depth is the distance from the light.
+// Rows that are exact at `p` and to the first order beside it, so that code that reads a map by its rows can read this
+// one: those of the perspective map whose axis is the ray to `p`. Along a surface that the light grazes depth is far
+// from a straight line, and a perspective map's rows know. `map` has in x, y and w rows that take a point to q, in
+// lengths of far - near, and in metric.w minus near in these. `places`: xy: how many texels a place of 1 is from the
+// disc's middle, zw: where that is. Depth is the distance from the light.
 GN_FN MapRows paraboloidRows(MapRows map, real4 places, real3 p)
 {
     real3 gx = gradientOf(map.x);

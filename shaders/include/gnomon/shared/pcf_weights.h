@@ -12,10 +12,10 @@ GN_BEGIN
 GN_CONST int kBoxKernel = -3;
 GN_CONST int kProjectedKernel = -4;
 
-// By how much the offsets of nine point samples are multiplied. In the article of 2005 a texel is added to homogeneous
-// coordinates, and the projective fetch divides it by w too: metres from a lamp along the map's axis, so that all nine
-// samples are nearly one. Of a parallel light w is 1. Nearer than 1 m they would be farther apart than meant: at
-// most 1.
+// The factor of the offsets of nine point samples. In the article of 2005 a texel is added to homogeneous coordinates,
+// and the projective fetch divides it by w too: metres from a lamp along the map's axis, so that all nine samples
+// nearly coincide. For a parallel light w is 1. Nearer than 1 m they would be farther apart than intended, so the
+// factor is at most 1.
 GN_FN real pointSpread(int width, real w)
 {
     return width == kProjectedKernel ? real(1.0) / max(w, real(1.0)) : real(1.0);

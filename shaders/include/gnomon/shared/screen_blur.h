@@ -28,7 +28,7 @@ GN_FN int screenTapsAside(int scale)
 {
     return (kScreenReach + scale - 1) / scale;
 }
-// Of tap i in -aside .. aside.
+// The place of tap i in -aside .. aside.
 GN_FN real screenTapPlace(int i, int scale)
 {
     return real(i * scale);
@@ -61,13 +61,14 @@ GN_FN real publishedWeight(int i)
     return i == 0 ? publishedDistribution(real(0.0), real(2.0)) : real(2.0) * publishedDistribution(real(i), real(3.0));
 }
 
-// What a pixel's neighbour counts for. `off_px`: how far its surface lies from the plane of the pixel's own, in widths
-// of a pixel there. Within one it is the same surface, beyond two another one: so a step that one can see is one.
+// The weight of a pixel's neighbour. `off_px`: how far its surface lies from the plane of the pixel's own, in widths of
+// a pixel there. Within one width it is the same surface, beyond two another one, so every visible step separates
+// surfaces.
 GN_FN real screenDepthShare(real off_px)
 {
     return clamp(real(2.0) - off_px, real(0.0), real(1.0));
 }
-// `cosine`: of the angle between both surfaces' normals. All up to 18 degrees, nothing from 37 on.
+// `cosine`: cosine of the angle between both surfaces' normals. 1 up to 18 degrees, 0 from 37 on.
 GN_FN real screenNormalShare(real cosine)
 {
     return clamp((cosine - real(0.8)) / real(0.15), real(0.0), real(1.0));

@@ -25,12 +25,12 @@ inline constexpr unsigned kNoTriangle = 0xFFFFFFFFU;
 const uint kNoTriangle = 0xFFFFFFFFu;
 #endif
 
-// Of each element, an edge or a cap, two triangles are drawn.
+// Two triangles are drawn for each element, an edge or a cap.
 GN_CONST int kVolumeCorners = 6;
 
-// All of a volume is pushed away from the eye, to so many times its distance. A light cap lies in the very surface that
-// it is made of, which smooth normals may have lit, so the cap has to be behind it. Rounding to single precision moves
-// it by a sixteenth of that.
+// The factor by which all of a volume is pushed away from the eye. A light cap lies in the very surface that it is made
+// of, which smooth normals may have lit, so the cap has to be behind it. Rounding to single precision moves it by a
+// sixteenth of that.
 GN_CONST real kVolumePush = real(1.0) + real(16.0) / real(8388608.0);
 
 // `place` of a light: w = 0: xyz is the unit direction to the light; w = 1: its position.
@@ -76,7 +76,7 @@ GN_FN real4 volumeWall(int corner, real3 a, real3 b, bool left, bool right, real
     }
     real3 from = left ? a : b; // so that walls face outwards, as caps do
     real3 to = left ? b : a;
-    int k = corner == 3 ? 0 : (corner > 3 ? corner - 2 : corner); // of a quadrangle: 0 1 2, 0 2 3
+    int k = corner == 3 ? 0 : (corner > 3 ? corner - 2 : corner); // corners of a quadrangle: 0 1 2, 0 2 3
     if (k == 0) {
         return volumeNear(from);
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The smooth surface that a mesh's normals speak of, over its flat triangles: where the terminator of a smooth-shaded
-// mesh is, and where its points take their light from.
+// The smooth surface that a mesh's normals describe, over its flat triangles: it places the terminator of a
+// smooth-shaded mesh, and the points that take its light.
 // Based on: J. Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021. Departure: he moves a point onto the
 // planes of the three vertices, each perpendicular to its normal, and interpolates the three points. We interpolate
 // the planes and move the point onto the one that results, along its normal. For normals a few degrees apart both are
-// the same to second order, and ours needs one interpolated number beside the normal, so every rasteriser has it. Of a
-// ball whose vertices have the ball's normals it is exactly the inverse point, at R^2 / |p| from the centre, from where
+// the same to second order, and ours needs one interpolated number beside the normal, so every rasteriser has it. For a
+// ball whose vertices have the ball's normals it is exactly the inverse point, at R^2 / |p| from the centre, from which
 // no ray above the horizon meets the ball.
 #ifndef GNOMON_SMOOTH_SURFACE_H
 #define GNOMON_SMOOTH_SURFACE_H
@@ -37,15 +37,16 @@ GN_FN SmoothSurface flatSurface(real3 n)
     return s;
 }
 
-// Of a vertex at `v` with normal `m`: the plane's distance, times the normal's length. `creased`: the normal rounds off
-// an edge that is there, as at a box's corners; then no triangle of this vertex has a smooth surface over it.
+// For a vertex at `v` with normal `m`: the plane's distance, times the normal's length. `creased`: the normal smooths
+// over a real edge, as at a box's corners; then no triangle of this vertex has a smooth surface over it.
 GN_FN real smoothPlane(real3 m, real3 v, bool creased)
 {
     return dot(m, v) + (creased ? real(1e4) * length(m) * length(v) : real(0.0));
 }
 
-// Of the point `p` of a triangle with unit normal `n`. Interpolated between its vertices v with normals m, all of about
-// one length: `normal`: m; `plane`: smoothPlane(m, v). p and v are relative to the eye.
+// The smooth surface over the point `p` of a triangle with unit normal `n`. Two inputs are interpolated between its
+// vertices v with normals m, all of about one length: `normal`: m; `plane`: smoothPlane(m, v). p and v are relative to
+// the eye.
 //
 // Derivation. The vertices' planes are dot(m, x) = dot(m, v); interpolated, dot(normal, x) = plane. p + t normal is on
 // it where t = (plane - dot(normal, p)) / dot(normal, normal), and that is t |normal| away.
@@ -75,8 +76,8 @@ GN_FN real smoothLift(real3 p, real3 n, real3 unit, real3 normal, real plane)
     return is_flat ? real(0.0) : sqrt(share);
 }
 
-// What MaskInputs::smooth holds, each in [-1, 1]: the normal, octahedral, and the root of the lift as a share of the
-// distance from the eye, 0 where there is none; so 16 bits do for every size of scene.
+// The texel of MaskInputs::smooth, each number in [-1, 1]: the normal, octahedral, and the root of the lift as a share
+// of the distance from the eye, 0 where there is none; so 16 bits are enough for every size of scene.
 GN_FN real3 smoothEncode(SmoothSurface s, real3 p)
 {
     real2 e = octahedralEncode(s.n);

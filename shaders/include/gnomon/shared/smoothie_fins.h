@@ -15,9 +15,9 @@ struct Fin {
     real2 from; // texels
     real2 to;
     real2 outward;   // unit: away from the caster
-    real depth_from; // of the map's metric, affine in space
+    real depth_from; // in the map's metric, affine in space
     real depth_to;
-    real w_from; // of clip space, above 0
+    real w_from; // clip space's w, above 0
     real w_to;
 };
 
@@ -30,14 +30,14 @@ GN_FN real finSide(real3 a, real3 b_from_a, real3 c_from_a)
 }
 
 // Is an edge a silhouette, by the sides on which the third corners of its triangles lie? If both lie on one side, one
-// triangle faces the light and the other one does not. A triangle that the light grazes (0) faces whichever way makes
-// it one. Of an edge with one triangle alone the sides are handed in twice.
+// triangle faces the light and the other one does not. A triangle that the light grazes (0) may face either way, so the
+// edge is one. An edge with a single triangle passes its side twice.
 GN_FN bool isSilhouette(real left, real right)
 {
     return left * right >= real(0.0) && left + right != real(0.0);
 }
 
-// How much of an edge from w_a to w_b is to be cut off at a, as a share of it: what lies behind the light, or so near
+// How much of an edge from w_a to w_b is to be cut off at a, as a share of it: the part behind the light, or so near
 // before it that a map cannot show where.
 GN_FN real finCut(real w_a, real w_b)
 {

@@ -16,10 +16,10 @@ GN_CONST int kNoSmoothie = 0xffff;
 // Distances are stored in steps of a 1024th of a texel: 45 texels, the farthest along a diagonal, are 46340.
 GN_CONST real kSmoothieSteps = real(1024.0);
 
-// What lies beside a texel of a map, packed: in the low 16 bits the depth of the caster whose edge is meant, in the
+// The smoothie beside a texel of a map, packed: in the low 16 bits the depth of the caster that has the edge, in the
 // high ones how far the edge is from the texel's centre.
 struct Smoothie {
-    real depth;    // of the map's metric
+    real depth;    // in the map's metric
     real distance; // texels; negative: there is no edge
 };
 
@@ -55,8 +55,8 @@ GN_FN real edgeDistance(real dx, real dy)
     return max(sqrt(dx * dx + dy * dy) - real(0.5), real(0.0));
 }
 
-// Is an edge at a distance from a surface that is `depth` from the light of more account than another? That is so where
-// light from it is cut off at the greater angle. Of none the fall is 0.
+// Does an edge matter more to a surface than another edge? It does where it cuts off light at the greater angle.
+// Without an edge the fall is 0.
 GN_FN bool outweighs(real distance, real fall, real other_distance, real other_fall)
 {
     return distance * other_fall < other_distance * fall;

@@ -20,7 +20,7 @@ struct MemoryBlock {
     void* token = nullptr;                  // for the hooks' own use
 };
 
-/// What memory is asked for.
+/// A request for memory.
 struct MemoryRequest {
     VkMemoryRequirements needs{};         // size, alignment and types, as the driver says
     VkMemoryPropertyFlags properties = 0; // all of them; HOST_VISIBLE ones are to be mapped
@@ -29,9 +29,9 @@ struct MemoryRequest {
     /// block of memory they must keep VkPhysicalDeviceLimits::bufferImageGranularity apart.
     VkBuffer buffer = VK_NULL_HANDLE;
     VkImage image = VK_NULL_HANDLE; // or null
-    /// What the driver says of an allocation for this resource alone (VkMemoryDedicatedAllocateInfo).
+    /// The driver prefers an allocation for this resource alone (VkMemoryDedicatedAllocateInfo).
     bool prefers_dedicated = false;
-    bool requires_dedicated = false; // likewise, and it must be
+    bool requires_dedicated = false; // the driver requires such an allocation
 
     /// It is for a buffer.
     [[nodiscard]] bool linear() const { return buffer != VK_NULL_HANDLE; }
@@ -42,23 +42,23 @@ struct MemoryHooks {
     void* user = nullptr; // handed to both as it is
     /// Fills `block`; anything but VK_SUCCESS becomes an Error.
     VkResult (*allocate)(void* user, const MemoryRequest& request, MemoryBlock* block) = nullptr;
-    /// Takes back what `allocate` gave, once the GPU has done with it.
+    /// Takes back a block that `allocate` gave, once the GPU no longer uses it.
     void (*release)(void* user, const MemoryBlock& block) = nullptr;
 };
 
-/// Lets a host put other modules in the place of the library's shaders, to work on them while it runs. It is asked for
-/// each module whenever a pipeline is made of it: pipelines that are there stay as they are, so a host makes its
-/// ShadowRenderer and its drawers anew after a change. The interface (bindings, constants, locations) has to stay.
+/// Lets a host replace the library's shaders by other modules, to work on them while it runs. It is called for each
+/// module whenever a pipeline is made of it. Existing pipelines stay as they are, so a host makes its ShadowRenderer
+/// and its drawers anew after a change. The interface (bindings, constants, locations) has to stay.
 struct ShaderHook {
     void* user = nullptr; // handed to `words`; the library does not look at it
     /// `name` is that of the SPIR-V file in a build of the library: the source with the variant in it
-    /// ("mask_vsm.frag"). Gives SPIR-V for Vulkan 1.3 that stays where it is until the next call of this thread, or
-    /// nothing: then the library's own is taken. May be called by several threads at once; does not throw.
+    /// ("mask_vsm.frag"). Returns SPIR-V for Vulkan 1.3 that stays in place until this thread's next call, or nothing:
+    /// then the library's own is taken. May be called by several threads at once; does not throw.
     std::span<const std::uint32_t> (*words)(void* user, const char* name) = nullptr;
 };
 
-/// What the library makes use of beyond what every device of Vulkan 1.3 has. supportedFeatures() says what of it a
-/// device can, and a host turns off what it has no use for. optionalParts() says what is done where one is off.
+/// Features that the library uses and that not every device of Vulkan 1.3 has. supportedFeatures() lists those that a
+/// device has, and a host turns off those that it does not want. optionalParts() says what happens where one is off.
 struct FeatureUses {
     bool indirect_draws = false; // CasterDrawer: few commands for many casters
     bool depth_clamp = false;    // casters before a map's near plane (ViewProjection::clamp_near); filter volumes
@@ -70,46 +70,47 @@ struct FeatureUses {
     bool statistics = false;     // counts of PassRecord
 };
 
-/// Precondition: the device was made with requiredFeatures(features). Whatever takes one throws Error when a handle or
-/// the function is null, or one memory hook is given without the other.
+/// The host's device. Precondition: it was made with requiredFeatures(features). Functions that take a DeviceView throw
+/// Error when a handle or the function is null, or one memory hook is given without the other.
 struct DeviceView {
     VkInstance instance = VK_NULL_HANDLE;              // not null
     VkPhysicalDevice physical_device = VK_NULL_HANDLE; // not null
     VkDevice device = VK_NULL_HANDLE;                  // not null
-    /// Where functions come from. All are looked up through it, so a host may hand in a loader, a layer or a mock.
-    /// Not null.
+    /// All Vulkan functions are looked up through it, so a host may give a loader, a layer or a mock. Not null.
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
     MemoryHooks memory;             // empty: a dedicated allocation per resource
     ShaderHook shaders;             // empty: the library's own
     bool debug_labels = false;      // VK_EXT_debug_utils is enabled: name objects, label passes
-    FeatureUses features;           // what of it is on; nothing else is used
-    std::uint32_t queue_family = 0; // whose queues the commands go to: Profiler asks how wide their timestamps are
+    FeatureUses features;           // the features that are on; no others are used
+    std::uint32_t queue_family = 0; // family of the queues that run the commands: Profiler asks how wide its timestamps
+                                    // are
 };
 
-/// What of it the physical device has. Of `view` instance, physical_device and get_instance_proc_addr are read.
+/// The features that the physical device has. Reads instance, physical_device and get_instance_proc_addr of `view`.
 [[nodiscard]] GNOMON_API FeatureUses supportedFeatures(const DeviceView& view);
 
 /// Something that a device of Vulkan 1.3 may lack.
 struct OptionalPart {
-    const char* name;                    // of features and formats as the specification spells it
-    const char* serves;                  // what it is for
-    const char* without;                 // what becomes of that where it is lacking
-    const char* instead;                 // what to do there, of parts whose lack is refused; else empty
-    bool FeatureUses::*use;              // what turns it on; null: it is no feature, and used where it is there
-    bool (*has)(const DeviceView& view); // reads what supportedFeatures() reads, and queue_family
+    const char* name;                    // features and formats as the specification spells them
+    const char* serves;                  // its purpose
+    const char* without;                 // what happens to that where it is lacking
+    const char* instead;                 // what to do where its lack is refused; else empty
+    bool FeatureUses::*use;              // the member that turns it on; null: it is no feature, and is used where
+                                         // present
+    bool (*has)(const DeviceView& view); // reads the same members as supportedFeatures(), and queue_family
 };
-/// Every one that the library uses, formats of maps apart: ShadowRenderer::prepare() refuses those that the device
-/// cannot draw to or filter. Static lifetime. OptionalPart::has() throws Error as supportedFeatures() does.
+/// All optional parts that the library uses, except formats of maps: ShadowRenderer::prepare() refuses formats that the
+/// device cannot draw to or filter. Static lifetime. OptionalPart::has() throws Error as supportedFeatures() does.
 [[nodiscard]] GNOMON_API std::span<const OptionalPart> optionalParts();
 
-/// The features that these uses and the library itself rely on, chained for VkDeviceCreateInfo::pNext: for a host that
-/// wants no others. Static lifetime.
+/// The features that `uses` and the library itself need, chained for VkDeviceCreateInfo::pNext: for a host that wants
+/// no others. Static lifetime.
 [[nodiscard]] GNOMON_API const VkPhysicalDeviceFeatures2& requiredFeatures(const FeatureUses& uses);
 
-/// Adds what is missing to an engine's own features. In a chain no feature may be asked for in two structures: each is
-/// turned on in the one that is there, which is changed in place (VkDeviceCreateInfo::pEnabledFeatures,
-/// VkPhysicalDeviceFeatures2, VkPhysicalDeviceVulkan12Features, -13Features, or the structure of that feature alone),
-/// and else a structure is put before the chain. To live until vkCreateDevice() has returned.
+/// Adds the missing features to an engine's own. No feature may be in two structures of a chain. So each is turned on
+/// in the structure that is there, which is changed in place (VkDeviceCreateInfo::pEnabledFeatures,
+/// VkPhysicalDeviceFeatures2, VkPhysicalDeviceVulkan12Features, -13Features, or the structure of that feature alone);
+/// where there is none, a structure is put before the chain. It must live until vkCreateDevice() has returned.
 class GNOMON_API FeatureMerge {
 public:
     /// Changes `info`: its pNext or pEnabledFeatures. Throws Error for shaderOutputLayer in a chain that has structures
@@ -124,8 +125,8 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Names of the features that the library cannot do without and the physical device lacks, separated by ", "; empty of
-/// every device of Vulkan 1.3. Writes at most `capacity` bytes to `text`, the last one a zero.
+/// Writes the names of the features that the library cannot do without and the physical device lacks, separated by ",
+/// "; none for any device of Vulkan 1.3. Writes at most `capacity` bytes to `text`, the last one a zero.
 GNOMON_API void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity);
 
 } // namespace gnomon::vulkan

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a list of objects to instanced indirect draws, grouped by material batch. No GPU work: it writes plain arrays,
-// which are usually mapped memory. Serves shadow casters (caster_drawer.h) and a host's own passes alike.
+// Turns a list of objects into instanced indirect draws, grouped by material batch. No GPU work: it writes plain
+// arrays, which are usually mapped memory. Serves shadow casters (caster_drawer.h) and a host's own passes alike.
 #pragma once
 
 #include <gnomon/export.h>
@@ -15,22 +15,22 @@ namespace gnomon::vulkan {
 
 /// One triangle list inside the shared index and vertex buffers.
 struct MeshRange {
-    std::uint32_t first_index = 0;  // of the index buffer
+    std::uint32_t first_index = 0;  // in the index buffer
     std::uint32_t index_count = 0;  // three to a triangle
     std::int32_t vertex_offset = 0; // added to each index
 };
 
-/// A mesh drawn with one material. `batch` is whatever the caller groups by (material, pipeline); batches come out in
+/// A mesh drawn with one material. The caller groups by `batch` as it likes (material, pipeline); batches come out in
 /// ascending order.
 struct DrawPart {
-    MeshRange mesh;          // what is drawn
-    std::uint32_t batch = 0; // what it is drawn with
+    MeshRange mesh;          // the mesh
+    std::uint32_t batch = 0; // its material, pipeline, ...
 };
 
-/// What an object draws, by its index: a range of parts. Objects that name the same parts become instances of one draw.
-/// A count of 0 draws nothing.
+/// The parts that an object draws: a range. Objects that name the same parts become instances of one draw. A count of 0
+/// draws nothing.
 struct DrawObject {
-    std::uint32_t first_part = 0; // of setScene()'s parts
+    std::uint32_t first_part = 0; // index into setScene()'s parts
     std::uint32_t part_count = 0; // 0 draws nothing
 };
 
@@ -41,7 +41,7 @@ struct BatchDraws {
     std::uint32_t command_count = 0; // at least 1
 };
 
-/// What build() wrote.
+/// The result of build().
 struct DrawLists {
     std::span<const BatchDraws> batches; // ascending by batch; valid until the next call of the batcher
     std::uint32_t command_count = 0;     // indirect commands
@@ -52,7 +52,7 @@ struct DrawLists {
 /// Deterministic; allocates in setScene() alone. Not thread-safe.
 class GNOMON_API DrawBatcher {
 public:
-    /// Copies what it needs. Ranges of `objects` must lie inside `parts`, else Error.
+    /// Sets the scene and copies all that it needs. Ranges of `objects` must lie inside `parts`, else Error.
     void setScene(std::span<const DrawPart> parts, std::span<const DrawObject> objects);
 
     /// Instances that build() will write for this list. O(list).
@@ -65,7 +65,7 @@ public:
     /// several lists can share one buffer. Indices beyond setScene()'s objects draw nothing. `commands` and `instances`
     /// must be large enough, else Error; the caller binds instance data from them as it likes: as an instance-rate
     /// attribute, or as a storage buffer read at gl_InstanceIndex. An object may be listed more than once. `places`:
-    /// for each instance where in the list it stands is written instead of its index.
+    /// writes each instance's place in the list instead of the object's index.
     DrawLists build(std::span<const std::uint32_t> list, std::uint32_t first_instance,
                     std::span<VkDrawIndexedIndirectCommand> commands, std::span<std::uint32_t> instances,
                     bool places = false);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws fins of smoothies for hosts with ordinary meshes, where DrawCasters is called for them (ClassicFormats::fins).
-// Silhouettes are found on the GPU, from positions where they are when they are drawn, so skinned and morphed meshes
-// need nothing more. Based on: E. Chan, F. Durand, "Rendering Fake Soft Shadows with Smoothies", EGSR 2003.
+// Silhouettes are found on the GPU, from the positions at the time of drawing, so skinned and morphed meshes need
+// nothing more.
+// Based on: E. Chan, F. Durand, "Rendering Fake Soft Shadows with Smoothies", EGSR 2003.
 #pragma once
 
 #include <gnomon/export.h>
@@ -19,7 +20,7 @@ struct FinDrawerOptions {
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE; // may be null
 };
 
-/// What becomes of a wrong call, in every build:
+/// The effect of a wrong call, in every build:
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   fewer transforms than objects, null buffers, or larger than a device binds      Error
 ///   draw() before beginFrame(), of a null pass, or of one without fins              Error
@@ -36,11 +37,11 @@ public:
     FinDrawer(const FinDrawer&) = delete;
     FinDrawer& operator=(const FinDrawer&) = delete;
 
-    /// By object index of the plans: the edges of each, open ones too. What is masked, blended or cut has none, because
-    /// its outline is not its mesh's. May allocate.
+    /// Sets the edges of each object, open ones too, by object index of the plans. Give none for masked, blended or cut
+    /// objects, whose outline is not that of their mesh. May allocate.
     void setScene(std::span<const VolumeMesh> objects);
-    /// Before recordMaps() of a frame with filter smoothies. Of the elements edges alone have fins. `world_from_object`
-    /// is indexed by object index and read until the frame is recorded. Allocates nothing.
+    /// Before recordMaps() of a frame with filter smoothies. Only elements that are edges have fins.
+    /// `world_from_object` is indexed by object index and read until the frame is recorded. Allocates nothing.
     void beginFrame(std::uint32_t slot, const VolumeGeometry& geometry, std::span<const Rows3x4> world_from_object);
     /// Draws one map's fins. Returns the number of draws, for Profiler::addDraws.
     std::uint32_t draw(const MapPass& pass);

@@ -12,21 +12,21 @@
 
 namespace gnomon::vulkan {
 
-/// What one pass took.
+/// The cost of one pass.
 struct PassRecord {
     const char* name = "";                  // static
-    std::optional<double> milliseconds;     // by GPU timestamps; none where the queue has no such
+    std::optional<double> milliseconds;     // by GPU timestamps; none where the queue has none
     bool has_statistics = false;            // the next four hold: FeatureUses::statistics is on
     std::uint64_t vertex_invocations = 0;   // vertex shaders run
-    std::uint64_t primitives = 0;           // that reached rasterisation (clipping output)
+    std::uint64_t primitives = 0;           // primitives that reached rasterisation (clipping output)
     std::uint64_t fragment_invocations = 0; // fragment shaders run
     std::uint64_t compute_invocations = 0;  // compute shaders run
     std::uint32_t draws = 0;                // as counted by addDraws
 };
 
-/// Measures what the device can, and leaves the rest out: timestamps by DeviceView::queue_family, counts by
-/// FeatureUses::statistics. Draws are always counted. A pass longer than the timestamps' bits can count (a minute and
-/// more) is measured by the rest.
+/// Measures only what the device supports: timestamps by DeviceView::queue_family, counts by FeatureUses::statistics.
+/// Draws are always counted. The time of a pass that is too long for the timestamps' bits (a minute and more) wraps
+/// around.
 ///
 /// Not thread-safe. Error for no or too many frames (kMostFrames in shadow_renderer.h), no passes, a slot beyond them,
 /// and passes that nest or come before beginFrame(). An endPass() without its beginPass() does nothing. Passes beyond
@@ -47,8 +47,8 @@ public:
     void addDraws(std::uint32_t count);
     /// Ends the pass that is open; outside rendering.
     void endPass(VkCommandBuffer commands);
-    /// Reads back the passes of a slot whose frame has finished. Valid until the slot's next beginFrame. Empty of a
-    /// slot that there is not. Throws Error (lost device, memory).
+    /// Reads back the passes of a slot whose frame has finished. Valid until the slot's next beginFrame. Empty for a
+    /// slot that does not exist. Throws Error (lost device, memory).
     [[nodiscard]] std::span<const PassRecord> results(std::uint32_t slot);
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws shadow volumes for hosts with ordinary meshes: a ready-made DrawVolumes callback. The volumes are made on the
-// GPU, from positions where they are when they are drawn, so skinned and morphed meshes need nothing more.
+// GPU, from the positions at the time of drawing, so skinned and morphed meshes need nothing more.
 // Based on: M. McGuire, J. F. Hughes, K. T. Egan, M. J. Kilgard, C. Everitt, "Fast, Practical and Robust Shadows",
 // 2003.
 #pragma once
@@ -19,13 +19,13 @@ using pack::Rows3x4;
 
 /// The volume of one object: a range of VolumeGeometry::elements. Without elements it casts nothing.
 struct VolumeMesh {
-    std::uint32_t first_element = 0; // of VolumeGeometry::elements
+    std::uint32_t first_element = 0; // index into VolumeGeometry::elements
     std::uint32_t element_count = 0; // 0 casts nothing
-    std::uint32_t first_vertex = 0;  // of positions; its elements and triangles count from there
+    std::uint32_t first_vertex = 0;  // index into positions; its elements and triangles count from there
 };
 
 /// Storage buffers that vertex shaders read while drawing. Positions may differ from slot to slot (skinned meshes).
-/// Elements and triangles name one vertex for all that are in one place, so it does not matter where the others are.
+/// Elements and triangles name one vertex for all vertices in one place; the positions of the others are not read.
 struct VolumeGeometry {
     BufferRef positions; // three floats a vertex, packed
     /// Four 32-bit numbers each. An edge: the vertices that it leads from and to, as its left triangle runs along it,
@@ -41,7 +41,7 @@ struct VolumeDrawerOptions {
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE; // may be null
 };
 
-/// What becomes of a wrong call, in every build:
+/// The effect of a wrong call, in every build:
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   fewer transforms than objects, null buffers, or larger than a device binds      Error
 ///   draw() before beginFrame(), or of a null pass                                   Error
@@ -58,7 +58,7 @@ public:
     VolumeDrawer(const VolumeDrawer&) = delete;
     VolumeDrawer& operator=(const VolumeDrawer&) = delete;
 
-    /// By object index of the plans. May allocate.
+    /// Sets the volumes by object index of the plans. May allocate.
     void setScene(std::span<const VolumeMesh> objects);
     /// Before recordMask() of a frame with volumes. `world_from_object` is indexed by object index and read until the
     /// frame is recorded. Allocates nothing.
@@ -67,7 +67,7 @@ public:
     /// draws in such formats. Returns the number of draws, for Profiler::addDraws.
     std::uint32_t draw(const VolumePass& pass);
 
-    [[nodiscard]] std::uint64_t triangles() const; // submitted since beginFrame(), those that came to nothing included
+    [[nodiscard]] std::uint64_t triangles() const; // submitted since beginFrame(), degenerate ones included
 
 private:
     struct GNOMON_LOCAL Impl;
