@@ -25,7 +25,7 @@ public:
     /// Takes an image of 3 channels. Throws Error, and whatever waits for the GPU throws.
     void paint(const Image8& image);
     [[nodiscard]] bool isEmpty() const;
-    /// The size of its picture; 0 while it is empty.
+    /// Of what it holds; 0 while it is empty.
     [[nodiscard]] glm::uvec2 size_px() const;
 
 private:

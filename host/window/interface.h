@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dear ImGui on a window: takes input for widgets, and draws pictures and widgets on the screen.
+// Dear ImGui on a window: from what the person does to widgets, and from pictures and widgets to pixels on the screen.
 #pragma once
 
 #include "host/gpu.h"
@@ -15,8 +15,7 @@ namespace gnomon::host {
 /// `options` for a device that can draw in this window.
 [[nodiscard]] GpuOptions forWindow(GpuOptions options, const Window& window);
 
-/// There may be one at a time. `window` and `gpu` outlive it. Functions that wait for the GPU throw as FrameRenderer
-/// does.
+/// One at a time. `window` and `gpu` outlive it. What waits for the GPU throws as FrameRenderer does.
 class Interface {
 public:
     /// Throws Error.
@@ -25,15 +24,15 @@ public:
     Interface(const Interface&) = delete;
     Interface& operator=(const Interface&) = delete;
 
-    /// Begins a turn, in which Dear ImGui makes widgets. False: the window is minimised and has no pixels, and end()
-    /// must not be called.
+    /// Widgets may be made from now on, by Dear ImGui. False, and then no end(): the window has no pixels, since it is
+    /// minimised.
     [[nodiscard]] bool begin();
     /// Shows the pictures, and over them the widgets. False: the window's size has just changed, nothing is shown, and
     /// the next turn will.
     bool end(std::span<const PicturePlace> pictures);
     /// As end(), and gives what is shown as RGB pixels; empty where nothing is.
     [[nodiscard]] Image8 endAndRead(std::span<const PicturePlace> pictures);
-    /// The window's size, as begin() found it.
+    /// Of the window, as begin() found it.
     [[nodiscard]] glm::uvec2 size_px() const;
 
 private:

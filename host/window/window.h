@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window of the desktop and its input. It knows nothing of pictures.
+// A window of the desktop, and what the person in front of it does. Knows nothing of pictures.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -24,11 +24,11 @@ struct WindowOptions {
 [[nodiscard]] glm::ivec2 sizeOnScreen(const glm::ivec2& size, const glm::ivec2& size_px, const glm::ivec2& frame,
                                       const glm::ivec2& area_px);
 
-/// There may be one at a time, on the thread of main().
+/// One at a time, on the thread that main() runs on.
 class Window {
 public:
-    /// Opens a window no larger than the screen has room for. Throws Error where there is no window system, or none
-    /// that Vulkan can draw in.
+    /// No larger than the screen has room. Throws Error where there is no window system, or none that Vulkan can draw
+    /// in.
     explicit Window(const WindowOptions& options);
     ~Window();
     Window(const Window&) = delete;
@@ -41,20 +41,21 @@ public:
     /// Throws Error. The caller destroys it, before the instance and the window.
     [[nodiscard]] VkSurfaceKHR makeSurface(VkInstance instance) const;
 
-    /// Takes the input since the last call. Waits at most `seconds` for some; 0: not at all. True: there was some.
+    /// Hears what was done since the last time. Waits `seconds` for something to be done at most; 0: not at all. True:
+    /// something was.
     bool listen(double seconds = 0.0);
     [[nodiscard]] bool isClosing() const;
-    /// The size of its inside, in pixels of the screen; 0 while it is minimised.
+    /// Of its inside, in pixels of the screen; 0 while it is minimised.
     [[nodiscard]] glm::uvec2 size_px() const;
     /// How much larger than on a common screen letters should be, in pixels; 1 on a common one.
     [[nodiscard]] double contentScale() const;
     void setTitle(const std::string& title);
-    /// Sets the size of its inside, in the desktop's units, each above 0. The size changes once the desktop follows.
+    /// Of its inside, in the desktop's units, each above 0. It has it when the desktop has heard of it.
     void resize(glm::uvec2 size);
     /// Files dropped on it since the last call.
     [[nodiscard]] std::vector<std::string> takeDropped();
-    /// Letters A to Z that were pressed since the last call, including those already released, so that a slow picture
-    /// loses none.
+    /// Letters that were pressed since the last call, A to Z, also those that were let go of in between: a picture that
+    /// takes long loses none.
     [[nodiscard]] std::string takeLetters();
     /// Is something drawn over its last picture, or has its size changed? Forgets it.
     [[nodiscard]] bool takeExposed();

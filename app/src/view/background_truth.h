@@ -29,7 +29,7 @@ public:
     void begin(const Shot& shot, const Settings& settings, std::size_t light);
     void stop();
 
-    /// The masks and the truth of the rays traced so far.
+    /// What rays have found so far.
     struct Level {
         std::uint32_t rays = 0;              // per pixel and light
         bool is_last = false;                // it is what `render --truth` draws with

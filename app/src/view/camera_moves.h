@@ -14,16 +14,15 @@
 
 namespace gnomon::app::view {
 
-/// The eye turned around its target at the same distance. The scene seems to turn by `turn`, radians to the right and
-/// upwards. Never over the pole.
+/// Around what the eye looks at, which keeps its distance. `turn`: radians to the right and upwards that the scene
+/// seems to turn by. Never over the pole.
 [[nodiscard]] host::Eye orbited(const host::Eye& eye, const glm::dvec2& turn);
 /// The eye stays and looks elsewhere: radians to the right and upwards.
 [[nodiscard]] host::Eye looked(const host::Eye& eye, const glm::dvec2& turn);
-/// Moves eye and target so that points as far away as the target follow the pointer; `pixels` to the right and
-/// downwards.
+/// Eye and target move so that what is as far as the target follows the pointer; `pixels` to the right and downwards.
 [[nodiscard]] host::Eye panned(const host::Eye& eye, const glm::dvec2& pixels, double picture_height_px);
-/// The eye moved towards its target, which it never reaches: by `steps` of a wheel, each a tenth of the rest. Steps
-/// below 0 lead away. An orthographic eye stays, and its picture's height shrinks.
+/// Towards the target, and never to it: `steps` of a wheel, each a tenth of what is left. Below 0: away. An
+/// orthographic eye stays, and its picture's height shrinks.
 [[nodiscard]] host::Eye dollied(const host::Eye& eye, double steps);
 /// Eye and target, by metres along right, up and forwards of the eye.
 [[nodiscard]] host::Eye flown(const host::Eye& eye, const glm::dvec3& metres);
@@ -42,9 +41,9 @@ struct SunDome {
     glm::dvec3 centre_ws{0.0};
     double radius_m = 1.0;
 };
-/// The dome whose share of the picture is the same wherever the eye is.
+/// Of a size that it has the same share of the picture wherever the eye is.
 [[nodiscard]] SunDome domeOf(const host::Eye& eye);
-/// The direction of light from the point of the dome that a line meets first, or comes nearest to. Unit; never from
+/// Which way light travels from the place of the dome that a line meets first, or comes nearest to. Unit; never from
 /// below the horizon.
 [[nodiscard]] glm::dvec3 sunFrom(const SunDome& dome, const SightLine& line);
 

@@ -19,9 +19,9 @@ public:
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    /// Nothing while the program runs; then its exit status, -1 where a signal ended it. Does not wait.
+    /// Nothing while it is at work; then its exit status, -1 where a signal ended it. Does not wait.
     [[nodiscard]] std::optional<int> look();
-    /// Its output so far, errors too; a megabyte at most.
+    /// What it has said so far, errors too; a megabyte at most.
     [[nodiscard]] const std::string& text() const { return text_; }
 
 private:

@@ -16,9 +16,9 @@ class Drawing {
 public:
     Drawing(host::Gpu& gpu, const Scenery& scenery, const Settings& settings);
 
-    /// Sets the settings of the next picture. After an Error there is nothing to draw with until the next take().
+    /// From the next picture on. Throws Error, and then there is nothing to draw with until the next take().
     void take(const Settings& settings);
-    /// Draws the next frame; the technique keeps its state from earlier ones. Throws Error.
+    /// Draws what has changed since the last time, with what the technique remembers of it. Throws Error.
     void draw();
     /// Draws as `render` does: from nothing, as often as --converge says. Throws Error.
     void drawStill();
@@ -33,7 +33,7 @@ public:
     [[nodiscard]] host::FrameRenderer& renderer() { return *renderer_; }
     /// Is what it shows a frame that was drawn from nothing?
     [[nodiscard]] bool isStill() const { return still_; }
-    /// The canvas as the picture that `render` writes.
+    /// What its canvas shows, as `render` writes it.
     [[nodiscard]] Image8 picture();
 
 private:

@@ -13,7 +13,7 @@
 namespace gnomon::app::view {
 namespace {
 
-/// Settings with the same texts, without one of them; in the table's order, as presets have them.
+/// Settings with the same texts, but for one that is left out; in the table's order, as presets have them.
 Settings without(const Settings& settings, std::string_view left_out)
 {
     Settings made = defaultSettings();

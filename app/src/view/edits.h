@@ -23,19 +23,19 @@ struct Edited {
 using Changes = std::vector<std::pair<std::string_view, std::string>>;
 /// Precondition: the keys are in the table.
 [[nodiscard]] Edited edited(const Settings& settings, const Changes& changes);
-/// Checks settings that were made in another way: accepted if `render` would draw by them.
+/// Settings that were put together otherwise, if `render` would draw by them.
 [[nodiscard]] Edited checked(Settings settings);
-/// The settings with all of the technique at its default.
+/// With all of the technique at its default.
 [[nodiscard]] Settings withoutTechnique(Settings settings);
-/// The settings with a technique in one word in place of the present one.
+/// As if a technique in one word were given in the place of the present one.
 [[nodiscard]] Edited withTechnique(const Settings& settings, std::string_view text);
 
 /// The settings of `gnomon view` as those of the `gnomon render` that draws the same.
 [[nodiscard]] Settings asRender(Settings settings);
 
-/// The eye's place and direction as texts that give the same eye to the last bit.
+/// Its place and direction, in words that lead back to the same eye, to the last bit.
 [[nodiscard]] Changes changesTo(const host::Eye& eye);
-/// "x,y,z", which gives the same vector to the last bit.
+/// "x,y,z", likewise.
 [[nodiscard]] std::string textOf(const glm::dvec3& vector);
 
 /// Is a setting's text only what follows from others, as completeTechnique() notes it, and was never asked for?

@@ -21,7 +21,7 @@ struct Page {
     const ResolvedOptions& options;
     double scale;       // texels for a pixel of the inset
     glm::uvec2 at_px;   // in the inset
-    glm::uvec2 size_px; // in the inset
+    glm::uvec2 size_px; // likewise
 };
 
 /// Layers that hold maps of this plan, ascending.

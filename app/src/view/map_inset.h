@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pages of shadow maps, small, in a corner of the picture: the light of each square, and whether it was drawn.
+// The pages of shadow maps, small, in a corner of the picture: who has which square, and what of it was drawn.
 #pragma once
 
 #include "view/viewer.h"
@@ -19,7 +19,7 @@ public:
     /// Takes the maps of the last frame. Where there are none it becomes empty, and why() says so.
     void paint(Viewer& viewer);
 
-    /// The picture of the maps: near is dark, far is bright, each map by itself.
+    /// Near is dark, far is bright, each map by itself.
     [[nodiscard]] const host::Canvas& canvas() const { return canvas_; }
     [[nodiscard]] bool isEmpty() const { return squares_.empty(); }
     [[nodiscard]] const std::string& why() const { return why_; }

@@ -26,7 +26,7 @@ bool isChoice(std::string_view key)
     return std::find(kChoices.begin(), kChoices.end(), key) != kChoices.end();
 }
 
-/// All settings of a group that have an effect now, without those that `leaves_out` names.
+/// All settings of a group that have an effect now, but for those that `leaves_out` names.
 template <typename LeavesOut>
 void rowsOf(Viewer& viewer, Widgets& widgets, SettingGroup group, LeavesOut&& leaves_out)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel beside the picture: settings to change, and their cost.
+// The panel beside the picture: what there is to change, and what it costs.
 #pragma once
 
 #include "view/widgets.h"
@@ -9,7 +9,7 @@
 
 namespace gnomon::app::view {
 
-/// State that the panel shares with the picture.
+/// What the panel shares with the picture.
 struct Shown {
     bool panel = true;
     bool sun = true;        // the handle

@@ -12,7 +12,7 @@
 namespace gnomon::app::view {
 namespace {
 
-/// `count` times a fifteenth of a letter's height: a pixel on a common screen, more on a dense one.
+/// So many times a fifteenth of a letter's height: a pixel on a common screen, more on a dense one.
 float fine(float count)
 {
     return count * ImGui::GetFontSize() / 15.0F;
@@ -133,7 +133,7 @@ void Pointer::fly(Viewer& viewer, double elapsed_s)
     if (way == glm::dvec3(0.0)) {
         return;
     }
-    // The eye reaches its target in two seconds, with shift in half a second.
+    // What one looks at is reached in two seconds; with shift in a quarter of that.
     const host::Eye eye = viewer.aimed();
     const double speed = glm::length(eye.target_ws - eye.position_ws) * (ImGui::GetIO().KeyShift ? 2.0 : 0.5);
     viewer.look(flown(eye, glm::normalize(way) * speed * elapsed_s));

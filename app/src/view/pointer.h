@@ -16,8 +16,8 @@ struct PictureArea {
 
 class Pointer {
 public:
-    /// Turns input since the last turn into changes of the viewer, and draws handles over the picture. `letters` are
-    /// the keys that were pressed, `elapsed_s` the time since then. Call it between Interface::begin() and end().
+    /// What was done since the last turn, as changes of the viewer; draws handles over the picture. `letters`: keys
+    /// that were pressed; `elapsed_s`: since then. Between Interface::begin() and end().
     void turn(Viewer& viewer, Shown& shown, const PictureArea& area, std::string_view letters, double elapsed_s);
     /// Where the sun's handle is, in the desktop's units; nothing where there is none.
     [[nodiscard]] const std::optional<glm::dvec2>& sunAt() const { return sun_at_; }

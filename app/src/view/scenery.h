@@ -12,8 +12,8 @@ namespace gnomon::app::view {
 struct Scenery {
     /// Throws as makeShot() and SceneOnGpu do.
     Scenery(host::Gpu& gpu, const Settings& settings) : shot(makeShot(settings)), on_gpu(gpu, shot.scene, shot.state) {}
-    /// Sets eye, lights and time by other settings of the same scene. After a UsageError each is as before or as the
-    /// settings have it.
+    /// Eye, lights and time by other settings of the same scene. Throws UsageError; then they are as before or as the
+    /// settings have them.
     void move(const Settings& settings) { moveShot(shot, settings, 0); }
 
     Shot shot;

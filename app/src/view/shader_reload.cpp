@@ -32,7 +32,7 @@ std::string cached(std::string_view cache, std::string_view name)
     return std::string(cache.substr(equals + 1, cache.find('\n', equals) - equals - 1));
 }
 
-/// Calls `visit(path, time)` for each plain file in a folder and below. Skips files that vanish meanwhile.
+/// Calls `visit(path, time)` for each plain file in a folder and below. What goes away meanwhile is passed over.
 template <class Visit>
 void forEachFile(const fs::path& folder, const Visit& visit)
 {

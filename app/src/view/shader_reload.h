@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shaders that change while the window is open: when a source is saved it is compiled, and replaces the module that the
-// program was built with.
+// Shaders that are worked on while the window is open: their sources are followed, compiled when one is saved, and put
+// in the place of those that the program was built with.
 #pragma once
 
 #include "view/child.h"
@@ -25,12 +25,11 @@ struct ShaderBuild {
     std::filesystem::file_time_type made;       // modules that are newer are other than the program's
 };
 
-/// The shader build of the running program. Nothing unless it lies in the folder where CMake has built it, beside its
-/// sources.
+/// That of the running program. Nothing unless it lies in the folder where CMake has built it, beside its sources.
 [[nodiscard]] std::optional<ShaderBuild> findShaderBuild();
 
-/// The part of a compiler's output that people must read: each line that names a fault once, with paths from a source
-/// folder's parent on. Where no line names a fault it is the last lines.
+/// What of a compiler's output people have to read: each line that names a fault once, paths from a source folder's
+/// parent on; the last lines where none does.
 [[nodiscard]] std::string compilerFaults(std::string_view output, const ShaderBuild& build);
 
 enum class ShaderNews : std::uint8_t { none, compiling, unchanged, compiled, failed };
@@ -41,14 +40,14 @@ public:
 
     /// For GpuOptions::shaders; holds as long as this does, which stays where it is.
     [[nodiscard]] vulkan::ShaderHook hook();
-    /// Looks at the sources, a few times a second, and at the compiler. `now_s` is of any clock. After `compiled` all
-    /// pipelines must be made anew. Must not be called while others make pipelines.
+    /// Looks at the sources, a few times a second, and at the compiler. `now_s`: of any clock. `compiled`: whoever has
+    /// pipelines makes them anew. Not while others make some.
     [[nodiscard]] ShaderNews turn(double now_s);
-    /// Why the last compilation failed; empty where it did not.
+    /// Why the last one failed; empty where it did not.
     [[nodiscard]] const std::string& faults() const { return faults_; }
     /// How many modules are other than the program's.
     [[nodiscard]] std::size_t count() const { return modules_.size(); }
-    /// Returns to the modules before the last `compiled`, which cannot be drawn with.
+    /// To those before the last `compiled`, which cannot be drawn with.
     void goBack() { modules_ = before_; }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cost of a frame, pass by pass, and how evenly frames come.
+// What a frame costs, pass by pass, and how evenly frames come.
 #include "view/panels.h"
 
 #include "lab/passes.h"

@@ -30,7 +30,7 @@ glm::uvec2 windowSize(const Settings& settings)
     return {std::min(settings.size_px.x, kMost) + kPanel_px, std::min(settings.size_px.y, kMost)};
 }
 
-/// A software rasteriser is slow for each pixel, so it starts at half size unless a size was given.
+/// A processor that draws takes its time for each pixel; whoever asks for a size has it whole.
 bool startsAtHalfSize(const Settings& settings, const host::Gpu& gpu)
 {
     return gpu.software() && !settings.given.contains("size");
@@ -62,7 +62,7 @@ Settings ViewWindow::settingsOfWindow() const
 {
     Settings settings = viewer_->settings();
     settings.subcommand = kView;
-    // windowSize() makes this window's own size of it, whether its panel is shown or not.
+    // What windowSize() makes of it is this window's own size, whether its panel is shown or not.
     const glm::dvec2 inside = glm::dvec2(size_px()) / window_.contentScale();
     if (inside.y >= 1.0) { // else it is minimised
         applySetting(settings, "size",
@@ -150,7 +150,7 @@ void ViewWindow::status()
                  nullptr, width);
 }
 
-/// Shows the shader compiler's errors over the picture until the shaders compile.
+/// What the compiler of shaders said, over the picture until they compile.
 void ViewWindow::shaderFaults()
 {
     if (!shaders_ || shaders_->faults().empty()) {

@@ -18,35 +18,35 @@ namespace gnomon::app::view {
 class ViewWindow {
 public:
     /// Opens the window, so that the picture has --size where the screen has room, and loads the scene. A software
-    /// rasteriser starts at half that size, enlarged, unless the command line gave one. Follows the sources of
-    /// `shaders`, where given. Throws UsageError and Error.
+    /// rasteriser starts at half that size, enlarged, unless the command line gave one. `shaders`: whose sources are
+    /// followed, if any's are. Throws UsageError and Error.
     explicit ViewWindow(const Settings& settings, const std::optional<ShaderBuild>& shaders = std::nullopt);
     ~ViewWindow();
     ViewWindow(const ViewWindow&) = delete;
     ViewWindow& operator=(const ViewWindow&) = delete;
 
-    /// Waits for input, a second at most, where nothing else is due.
+    /// Waits for something to be done, for a second, where nothing else is due.
     void nap();
-    /// Takes input, applies it, draws and shows. False: the window was closed. Throws Error; after one of the kind
-    /// device_lost this window is of no more use.
+    /// Hears what was done, changes what that changes, draws and shows. False: the window was closed. Throws Error;
+    /// of the kind device_lost, and then there is nothing more to do with this window.
     bool turn();
-    /// Does turn() and returns the pixels that the window then shows; empty where it shows nothing.
+    /// The same, and what the window shows then; empty where it shows nothing.
     [[nodiscard]] Image8 turnAndRead();
 
-    /// Null where no shaders are followed.
+    /// Null where none are followed.
     [[nodiscard]] const ShaderReload* shaders() const { return shaders_.get(); }
     [[nodiscard]] Viewer& viewer() { return *viewer_; }
     [[nodiscard]] host::Window& window() { return window_; }
     [[nodiscard]] Widgets& widgets() { return widgets_; }
     [[nodiscard]] Shown& shown() { return shown_; }
     [[nodiscard]] Typed& typed() { return typed_; }
-    /// The settings that open a window as large as this one, with this picture.
+    /// That open a window as large as this one, with this picture.
     [[nodiscard]] Settings settingsOfWindow() const;
     [[nodiscard]] const Pointer& pointer() const { return pointer_; }
     /// Where the picture is, in pixels of the window.
     [[nodiscard]] glm::ivec2 pictureAt() const;
     [[nodiscard]] glm::uvec2 size_px() const { return interface_->size_px(); }
-    /// The time of the last turn, without waiting for the screen.
+    /// Of the last turn, all of it but waiting for the screen.
     [[nodiscard]] double turn_ms() const { return turn_ms_; }
 
 private:

@@ -72,7 +72,7 @@ bool Viewer::refuse(const std::string& why)
     return false;
 }
 
-/// The viewer cannot recover a lost device, so the Error goes on to the window's owner.
+/// A lost device is not the viewer's to mend: it goes on to whoever has the window.
 bool Viewer::refuseUnlessLost(const Error& error)
 {
     if (error.kind() == ErrorKind::device_lost) {
@@ -95,8 +95,8 @@ host::Eye Viewer::aimed() const
     return eye;
 }
 
-/// The settings of the picture beside one of these settings, if there is one. Throws UsageError where the technique
-/// beside cannot be had with them.
+/// Of what stands beside a picture of these settings, if anything does. Throws UsageError where the technique there
+/// cannot be had with them.
 std::optional<Settings> Viewer::besideOf(const Settings& settings) const
 {
     if (beside_ == Beside::nothing) {
@@ -115,7 +115,7 @@ std::optional<Settings> Viewer::besideOf(const Settings& settings) const
     return std::move(other.settings);
 }
 
-/// Shows the notices of the shot, which `render` prints.
+/// What people should know before they look, as `render` says it.
 void Viewer::noteNotices()
 {
     for (const std::string& text : scenery_->shot.notices) {
@@ -136,7 +136,7 @@ void Viewer::makeBeside()
     changed_ = true;
 }
 
-/// Makes the scenery and drawings of the settings. May throw when half done.
+/// What the settings ask for of the world: may throw after it has begun.
 void Viewer::adopt(const Settings& next)
 {
     if (changesScene(settings_, next)) {

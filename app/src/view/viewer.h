@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state behind the window, without the window: settings that change, and the pictures that follow.
+// What the window shows and how it got there, without the window: settings that are changed, pictures that follow.
 #pragma once
 
 #include "view/background_truth.h"
@@ -22,12 +22,12 @@
 
 namespace gnomon::app::view {
 
-/// The picture that is compared with the main one.
+/// What the picture is held against.
 enum class Beside : std::uint8_t { nothing, technique, truth };
-/// How two pictures are compared: side by side at a divider, or as their difference.
+/// How: at the divider one gives way to the other; or their difference is painted.
 enum class Held : std::uint8_t { split, difference };
 
-/// The comparison that a viewer shows.
+/// What stands beside a picture, and how.
 struct Holding {
     Beside beside = Beside::nothing;
     Held held = Held::split;
@@ -65,14 +65,14 @@ public:
     /// Loads the scene. Throws as makeShot() does, and Error.
     Viewer(host::Gpu& gpu, const Settings& settings);
 
-    /// The settings with which `render` draws the picture.
+    /// Of the picture, as `render` has them.
     [[nodiscard]] const Settings& settings() const { return settings_; }
     [[nodiscard]] const Shot& shot() const { return scenery_->shot; }
     [[nodiscard]] host::Gpu& gpu() const { return gpu_; }
-    /// The eye with a target that is a place. A camera with only a direction has its target as far away as the middle
-    /// of the scene.
+    /// The eye, with a target that is a place: where a camera has but a direction, as far away as the middle of the
+    /// scene.
     [[nodiscard]] host::Eye aimed() const;
-    /// The camera of the picture.
+    /// That of the picture.
     [[nodiscard]] Camera camera() const;
 
     // Changes. False: it cannot be, and message() says why; all is as before.
@@ -87,15 +87,15 @@ public:
     bool remake();
     /// A built-in preset's name or a file.
     bool loadPreset(const std::string& name_or_file);
-    /// Writes a file with which `--preset` draws the same.
+    /// What `--preset` takes to draw the same.
     bool savePreset(const std::filesystem::path& file);
-    /// Writes the picture as `render` does, without the rest of the window.
+    /// What the picture shows, as `render` writes it; nothing else of the window.
     bool saveScreenshot(const std::filesystem::path& file);
     bool holdAgainst(Beside beside);
     bool setTechniqueBeside(const std::string& technique);
     void setHeld(Held held);
     void setTruthKind(truth::Kind kind);
-    /// The comparison, for another viewer that is to show the same.
+    /// All of it, for another viewer that is to show the same.
     [[nodiscard]] Holding holding() const;
     void hold(const Holding& holding);
 
@@ -113,14 +113,14 @@ public:
     [[nodiscard]] std::string command() const;
     [[nodiscard]] const Message& message() const { return message_; }
     void say(Message message) { message_ = std::move(message); }
-    /// The error of the light that --light names against the rays traced so far; nothing while it is not known.
+    /// Of the light that is looked at, against as many rays as there are yet; nothing while that is not known.
     [[nodiscard]] std::optional<double> rmse() const { return rmse_; }
     [[nodiscard]] std::uint32_t truthRays() const { return truth_rays_; } // per pixel; 0: none yet
     [[nodiscard]] bool isTruthDone() const { return truth_done_; }
 
     /// Draws what is due at a moment in seconds, any clock's. True: something was drawn.
     bool update(double now_s);
-    /// Whether nothing moves and all is as `render` draws it.
+    /// Nothing moves, and all that is to be seen is as `render` draws it.
     [[nodiscard]] bool isAtRest() const;
     /// Will there be anything to draw though nobody does anything?
     [[nodiscard]] bool isBusy() const { return plays_ || movesSun() || !isAtRest(); }
@@ -132,9 +132,9 @@ public:
     [[nodiscard]] const host::FrameTimes& times() const { return drawing_->times(); }
     [[nodiscard]] const host::FrameTimes* timesBeside() const;
     [[nodiscard]] const Pacing& pacing() const { return pacing_; }
-    /// The renderer of the picture, for panels: its plan and memory.
+    /// Its plan and memory; for panels.
     [[nodiscard]] host::FrameRenderer& renderer() { return drawing_->renderer(); }
-    /// The picture as `render` writes it.
+    /// Its picture as `render` writes it.
     [[nodiscard]] Image8 picture() { return drawing_->picture(); }
 
 private:

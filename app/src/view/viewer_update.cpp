@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a viewer draws: at once while something moves; as `render` does once nothing moves; then with more and more
-// rays.
+// What a viewer draws, and when: at once while something moves, as `render` draws once nothing does, and more rays for
+// as long as it rests.
 #include "app/scripted_path.h"
 #include "lab/compare.h"
 #include "streams.h"
@@ -221,7 +221,7 @@ bool Viewer::update(double now_s)
     }
 }
 
-/// Drops settings that cannot be drawn, and returns to those of the last picture where they differ.
+/// What cannot be drawn is not kept: the settings of the last picture are taken again, if it was drawn by others.
 bool Viewer::refuseAndGoBack(const std::string& why)
 {
     const bool has_drawn_others = drawn_.values != settings_.values || drawn_.scene != settings_.scene;

@@ -15,7 +15,7 @@
 namespace gnomon::app::view {
 namespace {
 
-/// The text about a setting where the pointer rests on it: name, meaning, range and default.
+/// What a setting is and takes, for the pointer that rests on it.
 std::string aboutOf(const Setting& setting)
 {
     std::string about = fmt::format("{}\n{}", spelled(setting), setting.doc);

@@ -18,7 +18,7 @@ public:
     /// Before the first widget of a turn.
     void begin();
 
-    /// A row for a setting, by its type, with unit, range and meaning where the pointer rests.
+    /// A row for a setting: as what it is, with unit, range and what it does where the pointer rests.
     void setting(Viewer& viewer, const Setting& setting);
     /// A setting that takes one of several names, with why one cannot be had and where it comes from.
     void choice(Viewer& viewer, const Setting& setting);
@@ -37,8 +37,8 @@ public:
              const std::function<std::string(std::size_t)>& refusal = nullptr,
              const std::function<std::string(std::size_t)>& about = nullptr);
 
-    /// Middle of the widget of this label in the last turn, pixels of the window; for tests of the window. Items of an
-    /// open list are "LABEL/ITEM". Null where it was not there, or is not to be seen.
+    /// Middle of the widget of this label in the last turn, pixels of the window; whoever tries the window asks for
+    /// it. Items of an open list are "LABEL/ITEM". Null where it was not there, or is not to be seen.
     [[nodiscard]] const glm::dvec2* placeOf(std::string_view label) const;
     /// The panel moves so that this one is seen.
     void reveal(std::string label) { revealed_ = std::move(label); }
@@ -50,7 +50,7 @@ private:
 
     std::map<std::string, glm::dvec2, std::less<>> places_;
     std::string revealed_;
-    // The setting that is being typed or dragged, until its value is applied.
+    // What is being typed or dragged, until it is given.
     std::string edited_key_;
     bool edited_was_there_ = false; // in this turn
     std::string edited_text_;

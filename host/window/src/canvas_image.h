@@ -7,7 +7,7 @@
 
 namespace gnomon::host {
 
-/// Copies a part of a canvas to `target`, whose layout is that of a copy's target.
+/// Copies a part of a canvas to `target`, which is to be written by copies, as its layout says.
 void recordCanvas(VkCommandBuffer commands, const Canvas& canvas, const PicturePlace& place, VkImage target);
 
 } // namespace gnomon::host

@@ -93,7 +93,7 @@ void SwapChain::makePass()
     subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
     subpass.colorAttachmentCount = 1;
     subpass.pColorAttachments = &reference;
-    // Earlier passes have a barrier of their own; later ones may read the image.
+    // What comes before has a barrier of its own; what comes after may read it.
     VkSubpassDependency after{};
     after.dstSubpass = VK_SUBPASS_EXTERNAL;
     after.srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;

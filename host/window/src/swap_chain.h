@@ -26,11 +26,11 @@ public:
 
     /// Has the window pixels? Makes images of its size where it has changed.
     [[nodiscard]] bool prepare();
-    /// Draws the pictures on black, then what `draw` records within pass(), and shows the result. `read`, where given,
-    /// copies it. False: the window's size has changed, nothing is shown.
+    /// Draws the pictures on black, over them what `draw` records within pass(), and shows that. Is `read` given, that
+    /// is copied by it. False: the window's size has changed, nothing is shown.
     bool show(std::span<const PicturePlace> pictures, const std::function<void(VkCommandBuffer)>& draw,
               TexelCopies* read);
-    /// Waits for the last show().
+    /// Waits for what was shown last.
     void wait() { commands_.wait(); }
 
     [[nodiscard]] VkRenderPass pass() const { return pass_.get(); }
@@ -41,7 +41,7 @@ public:
     [[nodiscard]] const void* texels() const { return texels_; }
 
 private:
-    struct Surface { // destroyed after its images
+    struct Surface { // goes after the images that are of it
         Surface(Window& window, const Gpu& gpu);
         ~Surface();
         Surface(const Surface&) = delete;

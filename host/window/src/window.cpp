@@ -37,7 +37,7 @@ struct Desktop {
     Desktop& operator=(const Desktop&) = delete;
 };
 
-/// The area of the first screen that the desktop leaves to windows, in pixels; 0 where it is unknown.
+/// Of the first screen what the desktop leaves to windows, in pixels; 0 where it says nothing.
 glm::ivec2 workArea()
 {
     int x = 0;
