@@ -51,7 +51,7 @@ struct IdScratch {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> links; // objects that share bounds
 };
 
-/// Appends one id for each object of the set: 0 for an object that does not cast for the light or is nowhere, then 1 ..
+/// Appends one id for each object of the set: 0 for an object that does not cast for the light or is nowhere, then 1 to
 /// `most` in the order of the farthest points of their boxes, by depth along a sun or by distance from a lamp. So an
 /// object that stands on the ground is before the ground. Among objects that are equally far the lower index is first.
 /// With IdOf::face each piece takes an id, and the id of an object's first piece is appended. Surfaces in one plane

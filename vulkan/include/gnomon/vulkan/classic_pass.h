@@ -39,6 +39,7 @@ struct ClassicFormats {
     bool operator==(const ClassicFormats&) const = default;
 };
 
+/// The classic part of a MapPass.
 struct ClassicPass {
     ClassicFormats formats; // classicFormats() of the light's options
     /// With behind_first: a set with one COMBINED_IMAGE_SAMPLER at binding 0, FRAGMENT stage, whose texel at
