@@ -27,7 +27,7 @@ from recorder import run_cases  # noqa: E402
 
 DESKTOP, PHONE = (1280, 800), (390, 844)
 PAGES = ("index.html", "docs/techniques/pcf.html", "docs/gallery.html", "docs/measurements.html", "reference.html", "api/structgnomon_1_1Frame.html",
-         "api/options_8h.html", "source/core/src/fit/fit.h.html")
+         "api/options_8h.html", "source/lab/metrics/error.h.html")
 MARK = "<!-- and ends -->"
 
 
