@@ -2,6 +2,7 @@
 #include "plan/sights.h"
 
 #include "light_reach.h"
+#include "region.h"
 
 #include <algorithm>
 #include <cmath>
