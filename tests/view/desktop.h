@@ -18,12 +18,12 @@ public:
     /// Null where Xvfb is not installed.
     [[nodiscard]] static std::unique_ptr<Desktop> open();
     ~Desktop();
-    /// Sets the screen's dots per inch for windows that are opened from then on; 96 on a common screen.
+    /// Of the screen, dots per inch; 96 on a common one. For windows that are opened from then on.
     void setDensity(int dpi);
     Desktop(const Desktop&) = delete;
     Desktop& operator=(const Desktop&) = delete;
 
-    // Input that the program gets as from any mouse and keyboard. Places are pixels of the screen.
+    // What a hand does, heard by the program as from any mouse and keyboard. Pixels of the screen.
     void point(const glm::dvec2& at);
     void press(int button); // 1 left, 2 middle, 3 right, 4 and 5 the wheel
     void release(int button);

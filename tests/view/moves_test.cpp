@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves of camera and sun by hand, by geometry; and settings as changes and as command lines.
+// What a hand does to camera and sun, by geometry; and settings as changes and as command lines.
 #include "view/camera_moves.h"
 
 #include "app/command_line.h"
@@ -90,7 +90,7 @@ TEST(SunDome, LeadsThereAndBack)
     const Aabb bounds{{-5.0F, -5.0F, -5.0F}, {5.0F, 5.0F, 5.0F}};
     const glm::dmat4 clip_from_world = host::cameraOf(eye, 640, 360, bounds).clip_from_world;
     const SunDome dome = domeOf(eye);
-    // On the side that faces the eye, the place that is seen is the one that is meant.
+    // Of places on the side that faces the eye, the one that is seen is the one that is meant.
     for (const glm::dvec3 towards :
          {glm::dvec3(0.3, 0.7, 0.6), glm::dvec3(-0.5, 0.5, 0.7), glm::dvec3(0.1, 0.9, 0.2)}) {
         const glm::dvec3 direction = -glm::normalize(towards);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cost of the window beside the picture that it shows.
+// What the window costs beside the picture that it shows.
 #include "user.h"
 
 #include "app/shot.h"

@@ -23,7 +23,7 @@
 namespace gnomon::test {
 namespace {
 
-/// The words that a POSIX shell makes of a line of shellText().
+/// What a POSIX shell makes of a line that shellText() made.
 std::vector<std::string> wordsOf(std::string_view line)
 {
     std::vector<std::string> words{""};

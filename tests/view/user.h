@@ -15,13 +15,13 @@ namespace gnomon::test {
 
 class User {
 public:
-    /// Opens the window as the command line would: `arguments` after "gnomon view".
+    /// Opens the window as the command line would: `arguments` behind "gnomon view".
     User(Desktop& desktop, const std::vector<std::string>& arguments,
          const std::optional<app::view::ShaderBuild>& shaders = std::nullopt);
 
-    /// Lets the window do some turns, so that it follows the input.
+    /// Turns of the window, until it has followed what was done.
     void wait(int turns = 3);
-    /// Waits until nothing moves and everything is drawn as `render` draws it. False: it took too long.
+    /// Until nothing moves and everything is drawn as `render` draws it. False: it took too long.
     bool rest();
     void click(std::string_view label);
     /// Opens the list of this label and takes one of its items.
@@ -35,7 +35,7 @@ public:
     void wheel(const glm::dvec2& at, int clicks);
     /// Pixels of the window for a share of the picture.
     [[nodiscard]] glm::dvec2 inPicture(double x, double y) const;
-    /// The part of the shown window that has the picture.
+    /// Of the window as it is shown, that part which shows the picture.
     [[nodiscard]] Image8 shownPicture();
 
     [[nodiscard]] app::view::ViewWindow& window() { return window_; }
@@ -48,7 +48,7 @@ private:
     app::view::ViewWindow window_;
 };
 
-/// The picture that the program draws by a viewer's command.
+/// What the command of a viewer draws, as the program would draw it.
 [[nodiscard]] Image8 drawnBy(const std::string& command);
 /// The pixels of a PNG file of 8 bits.
 [[nodiscard]] Image8 readPixels(const std::filesystem::path& file);

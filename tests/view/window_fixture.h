@@ -36,7 +36,7 @@ protected:
     std::filesystem::path folder_;
 };
 
-/// Expects that the window shows the picture that `render` draws by the window's command.
+/// What is shown is what `render` draws by the command that the window gives.
 inline void expectAsRendered(User& user)
 {
     ASSERT_TRUE(user.rest()) << user.viewer().message().text;

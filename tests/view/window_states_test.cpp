@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window of `gnomon view` beside the picture, and the changes that it refuses and keeps.
+// What the window of `gnomon view` shows beside the picture, and what it refuses and keeps.
 #include "window_fixture.h"
 
 #include <glm/geometric.hpp>
