@@ -32,13 +32,13 @@ Code vertexCode(const CasterPipelineKey& key)
     return key.clipped ? spirv::caster_clipped_vert : spirv::caster_vert;
 }
 
-/// The same without and with a texture's holes.
+/// The fragment shaders of a caster without and with the holes of a texture.
 struct FragmentCodes {
     Code whole;
     Code masked;
 };
 
-// Empty where the rasteriser alone does the work.
+// The code is empty where the rasteriser alone does the work.
 FragmentCodes fragmentCodes(const CasterPipelineKey& key, bool per_sample)
 {
     using namespace spirv;
@@ -62,8 +62,8 @@ FragmentCodes fragmentCodes(const CasterPipelineKey& key, bool per_sample)
     if (formats.write_frag_depth || key.classic.paraboloid) {
         return {caster_depth_frag, caster_depth_masked_frag};
     }
-    // Alpha is tested once for all samples of a texel: testing each would run the shader four times for what is a
-    // depth write else.
+    // Alpha is tested once for all samples of a texel: testing each would run the shader four times for what is
+    // otherwise a depth write.
     return {{}, caster_masked_frag};
 }
 
