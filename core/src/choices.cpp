@@ -158,56 +158,84 @@ constexpr std::array kEsmFormats{MapFormat::r32f, MapFormat::r16f};
 constexpr std::array kEvsmFormats{MapFormat::rgba32f, MapFormat::rgba16f, MapFormat::rg32f, MapFormat::rg16f};
 constexpr std::array kNoFormats{MapFormat::d32f}; // for a filter without maps, which stores nothing
 constexpr std::array kMsmFormats{MapFormat::rgba16, MapFormat::rgba32f};
+constexpr std::string_view kOneDepth = "this filter compares one depth per texel; it stores d32f, d24, r32f or d16, or two "
+                                       "maps a texel: rg16, rg16f or rgba8";
 constexpr std::array kFilters{
-    FilterTraits{Filter::hard, kDepthFormats, true, true, false, false, true},
-    FilterTraits{Filter::pcf, kDepthFormats, true, true, false, false, true},
-    FilterTraits{Filter::pcss, kRayFormats, true, false, false, true, true},
-    FilterTraits{Filter::raymarch, kRayFormats, true, false, false, true, true},
-    FilterTraits{Filter::vsm, kVsmFormats, false, true, true, false, false},
-    FilterTraits{Filter::lvsm, kLvsmFormats, false, true, true, false, false},
-    FilterTraits{Filter::esm, kEsmFormats, false, true, true, false, false},
-    FilterTraits{Filter::evsm, kEvsmFormats, false, true, true, false, false},
-    FilterTraits{Filter::msm, kMsmFormats, false, true, true, false, false},
-    FilterTraits{Filter::id, kIdFormats, false, true, false, false, false, true},
-    FilterTraits{Filter::depth_id, kDepthIdFormats, false, true, false, false, false, true},
-    FilterTraits{Filter::volumes, kNoFormats, true, true, false, false, false, false, false},
-    FilterTraits{Filter::smoothies, kRayFormats, true, false, false, false, true},
+    FilterTraits{.filter = Filter::hard,
+                 .formats = kDepthFormats,
+                 .formats_reason = kOneDepth,
+                 .depth_only = true,
+                 .clamps_near = true,
+                 .weighs_frames = true},
+    FilterTraits{.filter = Filter::pcf,
+                 .formats = kDepthFormats,
+                 .formats_reason = kOneDepth,
+                 .depth_only = true,
+                 .clamps_near = true,
+                 .weighs_frames = true},
+    FilterTraits{.filter = Filter::pcss,
+                 .formats = kRayFormats,
+                 .formats_reason = "pcss takes the mean of blockers' depths, one per texel: d32f, r32f or d16",
+                 .depth_only = true,
+                 .integrates_light = true,
+                 .weighs_frames = true},
+    FilterTraits{.filter = Filter::raymarch,
+                 .formats = kRayFormats,
+                 .formats_reason = "raymarch follows rays through one depth per texel: d32f, r32f or d16",
+                 .depth_only = true,
+                 .integrates_light = true,
+                 .weighs_frames = true},
+    FilterTraits{.filter = Filter::vsm,
+                 .formats = kVsmFormats,
+                 .formats_reason = "vsm stores two moments: rg32f, rg16 or rg16f; of four channels it would waste two, "
+                                   "where lvsm has a second layer",
+                 .clamps_near = true,
+                 .filterable = true},
+    FilterTraits{.filter = Filter::lvsm,
+                 .formats = kLvsmFormats,
+                 .formats_reason = "lvsm stores two moments each of two layers: rgba16, rgba16f or rgba32f",
+                 .clamps_near = true,
+                 .filterable = true},
+    FilterTraits{.filter = Filter::esm,
+                 .formats = kEsmFormats,
+                 .formats_reason = "esm stores one exponential, which only a float holds: r32f or r16f",
+                 .clamps_near = true,
+                 .filterable = true},
+    FilterTraits{.filter = Filter::evsm,
+                 .formats = kEvsmFormats,
+                 .formats_reason = "evsm stores moments of exponentials, which only a float holds: rgba32f, rgba16f, or "
+                                   "with the positive warp alone rg32f, rg16f",
+                 .clamps_near = true,
+                 .filterable = true},
+    FilterTraits{.filter = Filter::msm,
+                 .formats = kMsmFormats,
+                 .formats_reason = "msm stores four moments in a basis made for unorm, or in full floats: rgba16 or "
+                                   "rgba32f; half floats round them too coarsely",
+                 .clamps_near = true,
+                 .filterable = true},
+    FilterTraits{.filter = Filter::id,
+                 .formats = kIdFormats,
+                 .formats_reason = "id stores an object's id and nothing else: r16 or r8",
+                 .clamps_near = true,
+                 .ids = true},
+    FilterTraits{.filter = Filter::depth_id,
+                 .formats = kDepthIdFormats,
+                 .formats_reason = "depth-id stores an object's id and a depth: rg16, rg8 or rg32f",
+                 .clamps_near = true,
+                 .ids = true},
+    FilterTraits{.filter = Filter::volumes,
+                 .formats = kNoFormats,
+                 .formats_reason = "volumes counts faces and has no maps, so nothing is stored in texels",
+                 .depth_only = true,
+                 .clamps_near = true,
+                 .has_maps = false},
+    FilterTraits{.filter = Filter::smoothies,
+                 .formats = kRayFormats,
+                 .formats_reason = "smoothies compares one depth per texel, in a map that has its texels for itself: d32f, "
+                                   "r32f or d16",
+                 .depth_only = true,
+                 .weighs_frames = true},
 };
-
-/// The message to a user who asks a filter for a format that it cannot use.
-constexpr std::string_view formatReason(Filter filter)
-{
-    switch (filter) {
-    case Filter::pcss:
-        return "pcss takes the mean of blockers' depths, one per texel: d32f, r32f or d16";
-    case Filter::raymarch:
-        return "raymarch follows rays through one depth per texel: d32f, r32f or d16";
-    case Filter::vsm:
-        return "vsm stores two moments: rg32f, rg16 or rg16f; of four channels it would waste two, where lvsm has a "
-               "second layer";
-    case Filter::lvsm:
-        return "lvsm stores two moments each of two layers: rgba16, rgba16f or rgba32f";
-    case Filter::esm:
-        return "esm stores one exponential, which only a float holds: r32f or r16f";
-    case Filter::evsm:
-        return "evsm stores moments of exponentials, which only a float holds: rgba32f, rgba16f, or with the positive "
-               "warp alone rg32f, rg16f";
-    case Filter::msm:
-        return "msm stores four moments in a basis made for unorm, or in full floats: rgba16 or rgba32f; half floats "
-               "round them too coarsely";
-    case Filter::smoothies:
-        return "smoothies compares one depth per texel, in a map that has its texels for itself: d32f, r32f or d16";
-    case Filter::id:
-        return "id stores an object's id and nothing else: r16 or r8";
-    case Filter::depth_id:
-        return "depth-id stores an object's id and a depth: rg16, rg8 or rg32f";
-    case Filter::volumes:
-        return "volumes counts faces and has no maps, so nothing is stored in texels";
-    default:
-        return "this filter compares one depth per texel; it stores d32f, d24, r32f or d16, or two maps a "
-               "texel: rg16, rg16f or rgba8";
-    }
-}
 
 template <class Enum>
 std::string_view nameIn(std::string_view choice, Enum value)
@@ -372,14 +400,11 @@ std::optional<std::string_view> refusal(Filter filter, MapFormat format)
         return reason;
     }
     const FilterTraits* traits = filterTraits(filter);
-    if (traits != nullptr) {
-        for (const MapFormat usable : traits->formats) {
-            if (usable == format) {
-                return std::nullopt;
-            }
-        }
+    if (traits == nullptr) {
+        return kOneDepth;
     }
-    return formatReason(filter);
+    return std::ranges::find(traits->formats, format) != traits->formats.end() ? std::nullopt
+                                                                              : std::optional(traits->formats_reason);
 }
 
 } // namespace gnomon

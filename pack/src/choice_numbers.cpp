@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The numbers by which shaders tell choices apart are those of the enums.
-#include <gnomon/choices.h>
 #include <gnomon/object_ids.h>
 #include <gnomon/options.h>
 
@@ -16,12 +15,6 @@ constexpr bool is(int number, Enum value)
     return number == static_cast<int>(value);
 }
 
-static_assert(is(shared::kFilterHard, Filter::hard) && is(shared::kFilterPcf, Filter::pcf) &&
-              is(shared::kFilterPcss, Filter::pcss) && is(shared::kFilterRaymarch, Filter::raymarch) &&
-              is(shared::kFilterVsm, Filter::vsm) && is(shared::kFilterLvsm, Filter::lvsm) &&
-              is(shared::kFilterEsm, Filter::esm) && is(shared::kFilterEvsm, Filter::evsm) &&
-              is(shared::kFilterMsm, Filter::msm) && is(shared::kFilterId, Filter::id) &&
-              is(shared::kFilterDepthId, Filter::depth_id));
 static_assert(is(shared::kIdTestAny, IdTest::any) && is(shared::kIdTestPriority, IdTest::priority) &&
               is(shared::kIdTestNearest, IdTest::nearest));
 static_assert(shared::kMostPieces == int(kMostPieces) && kMostIdObjects == (1U << unsigned(shared::kPieceShift)) - 1U &&

@@ -10,39 +10,13 @@
 
 namespace gnomon::pack {
 
-std::string_view nameOf(FilterModule module)
+Filter filterModule(const ResolvedOptions& options)
 {
-    constexpr std::array<std::string_view, static_cast<std::size_t>(FilterModule::count)> kNames{
-        "hard", "pcf", "pcss", "raymarch", "moments", "warped", "ids"};
-    return kNames[static_cast<std::size_t>(module)];
-}
-
-FilterModule filterModule(const ResolvedOptions& options)
-{
-    switch (readingFilter(options)) {
-    case Filter::hard:
-        return FilterModule::hard;
-    case Filter::pcss:
-        return FilterModule::pcss;
-    case Filter::raymarch:
-        return FilterModule::raymarch;
-    case Filter::vsm:
-    case Filter::msm:
-        return FilterModule::moments;
-    case Filter::lvsm:
-    case Filter::esm:
-    case Filter::evsm:
-        return FilterModule::warped;
-    case Filter::id:
-    case Filter::depth_id:
-        return FilterModule::ids;
-    case Filter::pcf:
-    case Filter::volumes:   // counts no texels: what it has of a map is never read
-    case Filter::smoothies: // read as pcf, and its edges beside it
-    case Filter::automatic: // never comes here: a plan has the one that was chosen
-        break;
+    const Filter filter = readingFilter(options);
+    if (filter == Filter::depth_id) {
+        return Filter::id;
     }
-    return FilterModule::pcf;
+    return filter == Filter::volumes ? Filter::pcf : filter; // volumes read no map: any module does
 }
 
 TechniqueConstants techniqueConstants(const ResolvedOptions& options)

@@ -203,7 +203,9 @@ std::vector<DriverCase> cases()
         add(std::string("lamp_") + partition, "planes", tiny + "--point 0,4,0,30 --technique pcf+" + partition);
     }
     add("cascades_layered", "planes", small + "--technique pcf+cascades --set cascades.pass=layered");
-    add("cascades_evsm", "planes", small + "--technique evsm+cascades");
+    for (const char* filter : {"vsm", "lvsm", "esm", "evsm", "msm"}) { // all that one module has, in a loop over views
+        add(std::string("cascades_") + filter, "planes", small + "--technique " + filter + "+cascades");
+    }
     add("spot_msm", "spotlit", tiny + "--technique msm", 25);
     for (const char* soften : {"blur", "smoothies", "converge"}) {
         add(std::string("soften_") + soften, "planes", small + "--technique hard+single --soften " + soften);

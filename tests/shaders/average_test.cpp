@@ -120,12 +120,12 @@ TEST(Average, exponentsAreThoseOfTheFilter)
         EXPECT_EQ(averageExponents(filter, rule), glm::dvec4(0.0)) << "values are stored as they are";
     }
     rule.flags = kMomentLogSpace;
-    EXPECT_EQ(averageExponents(kFilterEsm, rule), glm::dvec4(40.0));
-    EXPECT_EQ(averageExponents(kFilterEvsm, rule), glm::dvec4(40.0, 80.0, -5.0, -10.0));
-    EXPECT_EQ(averageExponents(kFilterVsm, rule), glm::dvec4(0.0)) << "vsm has no logarithms";
-    EXPECT_EQ(averageExponents(kFilterMsm, rule), glm::dvec4(0.0));
+    EXPECT_EQ(averageExponents(GNOMON_FILTER_ESM, rule), glm::dvec4(40.0));
+    EXPECT_EQ(averageExponents(GNOMON_FILTER_EVSM, rule), glm::dvec4(40.0, 80.0, -5.0, -10.0));
+    EXPECT_EQ(averageExponents(GNOMON_FILTER_VSM, rule), glm::dvec4(0.0)) << "vsm has no logarithms";
+    EXPECT_EQ(averageExponents(GNOMON_FILTER_MSM, rule), glm::dvec4(0.0));
     EXPECT_FALSE(averagesLogarithms(3, kMomentLogSpace));
-    EXPECT_TRUE(averagesLogarithms(kFilterEsm, kMomentLogSpace));
+    EXPECT_TRUE(averagesLogarithms(GNOMON_FILTER_ESM, kMomentLogSpace));
 }
 
 } // namespace

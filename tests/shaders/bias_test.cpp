@@ -157,7 +157,7 @@ TEST_F(Bias, noConstantServesEverySlant)
         test::map_texels = [&](int x, int y) {
             return planeDepth(s, dvec2(x, y) + 0.5, off_m);
         };
-        return applyFilter(kFilterPcf, projectReceiver(s.map, s.rule, s.point, s.normal), kernel(5));
+        return applyFilter(GNOMON_FILTER_PCF, projectReceiver(s.map, s.rule, s.point, s.normal), kernel(5));
     };
     const double texel_m = s.map.texel_m;
     for (const double constant_texels : {0.1, 1.0, 3.0, 10.0, 30.0}) {

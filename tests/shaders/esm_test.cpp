@@ -100,8 +100,8 @@ TEST(Esm, logarithmsGiveTheSameAndDoNotOverflow)
         const double w = 0.01 + 0.98 * unit(rng);
         const double d = unit(rng);
         const auto mean = [&](const MomentRule& rule) {
-            const bool logarithms = averagesLogarithms(kFilterEsm, rule.flags);
-            const glm::dvec4 k = averageExponents(kFilterEsm, rule);
+            const bool logarithms = averagesLogarithms(GNOMON_FILTER_ESM, rule.flags);
+            const glm::dvec4 k = averageExponents(GNOMON_FILTER_ESM, rule);
             MomentSum sum = startAverage(glm::dvec4(stored(a, rule)), w, logarithms);
             sum = addToAverage(sum, glm::dvec4(stored(b, rule)), 1.0 - w, k, logarithms);
             return finishAverage(sum, k, logarithms).x;

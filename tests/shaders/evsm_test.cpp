@@ -61,8 +61,8 @@ glm::dvec4 encoded(double depth, double variance, const MomentRule& rule)
 
 glm::dvec4 averaged(const Distribution& d, const MomentRule& rule)
 {
-    const glm::dvec4 k = averageExponents(kFilterEvsm, rule);
-    const bool logarithms = averagesLogarithms(kFilterEvsm, rule.flags);
+    const glm::dvec4 k = averageExponents(GNOMON_FILTER_EVSM, rule);
+    const bool logarithms = averagesLogarithms(GNOMON_FILTER_EVSM, rule.flags);
     MomentSum sum = startAverage(encoded(d.depths[0], 0.0, rule), d.weights[0], logarithms);
     for (std::size_t i = 1; i < d.depths.size(); ++i) {
         sum = addToAverage(sum, encoded(d.depths[i], 0.0, rule), d.weights[i], k, logarithms);
@@ -246,7 +246,7 @@ TEST(Evsm, varianceOfATexelScalesWithTheSlopeOfTheWarp)
             EXPECT_NEAR(m.w / (m.z * m.z), 1.0 + 25.0 * variance * scale * scale, 1e-12);
             const MomentRule logs = evsmRule(20.0, 5.0, rule.flags | kMomentLogSpace);
             const glm::dvec4 v = encoded(z, variance, logs);
-            const glm::dvec4 k = averageExponents(kFilterEvsm, logs);
+            const glm::dvec4 k = averageExponents(GNOMON_FILTER_EVSM, logs);
             EXPECT_NEAR(std::exp(k.y * v.y), m.y, 1e-9 * m.y);
             EXPECT_NEAR(std::exp(k.w * v.w), m.w, 1e-9 * m.w);
         }

@@ -188,10 +188,10 @@ TEST_F(Filters, numbersInTheTableAreThoseOfTheEnum)
     FilterInput input{};
     input.kernel_width = 3;
     input.kernel = gaussianWeights(3, 0.0);
-    EXPECT_EQ(applyFilter(kFilterHard, point, input), filterHard(point, input));
-    EXPECT_EQ(applyFilter(kFilterPcf, point, input), filterPcf(point, input));
-    EXPECT_EQ(applyFilter(kFilterId, point, input), filterId(point, input));
-    EXPECT_EQ(applyFilter(kFilterDepthId, point, input), filterDepthId(point, input));
+    EXPECT_EQ(applyFilter(GNOMON_FILTER_HARD, point, input), filterHard(point, input));
+    EXPECT_EQ(applyFilter(GNOMON_FILTER_PCF, point, input), filterPcf(point, input));
+    EXPECT_EQ(applyFilter(GNOMON_FILTER_ID, point, input), filterId(point, input));
+    EXPECT_EQ(applyFilter(GNOMON_FILTER_DEPTH_ID, point, input), filterDepthId(point, input));
     EXPECT_EQ(applyFilter(99, point, input), 1.0);
 }
 

@@ -83,7 +83,7 @@ inline void expectBounded(const Options& o, int draws)
 // Every filter with every way to store and to read.
 inline void expectAllBounded()
 {
-    for (const int filter : {kFilterVsm, kFilterLvsm, kFilterEsm, kFilterEvsm, kFilterMsm}) {
+    for (const int filter : {GNOMON_FILTER_VSM, GNOMON_FILTER_LVSM, GNOMON_FILTER_ESM, GNOMON_FILTER_EVSM, GNOMON_FILTER_MSM}) {
         for (int flags = 0; flags < 2 * kMomentPenumbra; ++flags) {
             for (const real exponent : {real(5.5), real(88.0)}) {
                 expectBounded({filter, flags, flags % 4, exponent}, 60);
@@ -93,8 +93,8 @@ inline void expectAllBounded()
             expectBounded({filter, kMomentFourChannels, sampling, real(40.0)}, 1000);
         }
     }
-    expectBounded({kFilterRaymarch, 0, 0, real(0.0)}, 300);
-    expectBounded({kFilterPcss, 0, 0, real(0.0)}, 300);
+    expectBounded({GNOMON_FILTER_RAYMARCH, 0, 0, real(0.0)}, 300);
+    expectBounded({GNOMON_FILTER_PCSS, 0, 0, real(0.0)}, 300);
 }
 
 } // namespace hostile

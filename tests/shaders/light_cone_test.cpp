@@ -28,7 +28,7 @@ struct Stage {
     double side = 512.0;
     double tangent = std::tan(1.0 * kDegree); // of half the light's angle
     glm::dvec3 n{0.0, 0.0, 1.0};              // of the receiver
-    int filter = kFilterRaymarch;
+    int filter = GNOMON_FILTER_RAYMARCH;
 
     [[nodiscard]] MapRows rows() const
     {
@@ -122,7 +122,7 @@ TEST(Raymarch, SeesTheShareOfADiscBesideAHalfPlane)
     for (const double degrees : {0.53, 2.0, 8.0}) {
         for (const double texels : {8.0, 12.0, 24.0}) {
             for (const double height : {1.0, 7.0}) {
-                const Errors errors = errorsBesideAHalfPlane(kFilterRaymarch, degrees, height, texels, {1.0, 0.3});
+                const Errors errors = errorsBesideAHalfPlane(GNOMON_FILTER_RAYMARCH, degrees, height, texels, {1.0, 0.3});
                 // From twelve texels on the rays' noise is what is left; below there are fewer rays.
                 EXPECT_LT(errors.rms, texels < 12.0 ? 0.03 : 0.02) << texels << " texels";
                 EXPECT_LT(std::abs(errors.mean), 0.002) << texels << " texels";
@@ -222,7 +222,7 @@ void expectASphereIsLit(int filter)
 
 TEST(Raymarch, ASphereIsLitToItsRim)
 {
-    expectASphereIsLit(kFilterRaymarch);
+    expectASphereIsLit(GNOMON_FILTER_RAYMARCH);
 }
 
 // A wall that faces the light and the ground before it: both lit, and shadow from the wall's top begins at its foot.
@@ -246,7 +246,7 @@ TEST(Pcss, SeesTheShareOfADiscBesideAHalfPlane)
 {
     for (const double degrees : {0.53, 4.0}) {
         for (const double height : {1.0, 3.0, 7.0}) {
-            EXPECT_LT(errorsBesideAHalfPlane(kFilterPcss, degrees, height, 12.0, {0.4, 1.0}).rms, 0.03)
+            EXPECT_LT(errorsBesideAHalfPlane(GNOMON_FILTER_PCSS, degrees, height, 12.0, {0.4, 1.0}).rms, 0.03)
                 << degrees << " degrees, " << height << " m";
         }
     }
@@ -262,9 +262,9 @@ TEST(Pcss, DoesNotFuseOccluders)
     double rays = 0.0;
     for (int i = 0; i < 200; ++i) {
         const glm::dvec3 p(-0.25 + 0.0005 * i, 0.1, 0.0);
-        stage.filter = kFilterPcss;
+        stage.filter = GNOMON_FILTER_PCSS;
         pcss += stage.visibility(p, pixelOf(i)) / 200.0;
-        stage.filter = kFilterRaymarch;
+        stage.filter = GNOMON_FILTER_RAYMARCH;
         rays += stage.visibility(p, pixelOf(i)) / 200.0;
     }
     EXPECT_GT(pcss, rays + 0.02);
@@ -272,7 +272,7 @@ TEST(Pcss, DoesNotFuseOccluders)
 
 TEST(Pcss, ASphereIsLitToItsRim)
 {
-    expectASphereIsLit(kFilterPcss);
+    expectASphereIsLit(GNOMON_FILTER_PCSS);
 }
 
 // Where blocks decide a pixel, rays that know nothing of them find the same; other rays, so not to the last one.

@@ -276,13 +276,13 @@ TEST_F(Lvsm, numbersInTheTablesAreThoseOfTheEnum)
 {
     fill({{0.6, 0.5}, {0.9, 0.5}});
     point.depth = 0.9;
-    EXPECT_EQ(applyFilter(kFilterLvsm, point, input), filterLvsm(point, input));
+    EXPECT_EQ(applyFilter(GNOMON_FILTER_LVSM, point, input), filterLvsm(point, input));
     EXPECT_NEAR(filterLvsm(point, input), 0.5, 1e-9);
     EncodeInput e{};
     e.depth = 0.3;
     e.first = layers[0];
     e.second = layers[1];
-    EXPECT_EQ(encodeDepth(kFilterLvsm, e, input.moments), encodeLvsm(e, input.moments));
+    EXPECT_EQ(encodeDepth(GNOMON_FILTER_LVSM, e, input.moments), encodeLvsm(e, input.moments));
 }
 
 class LvsmOfTheWorld : public Lvsm {

@@ -19,12 +19,12 @@ using namespace shared;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kSide = 256;
-constexpr std::array kFilters{kFilterVsm, kFilterMsm};
+constexpr std::array kFilters{GNOMON_FILTER_VSM, GNOMON_FILTER_MSM};
 
 MomentRule ruleOf(int filter)
 {
     MomentRule rule{};
-    rule.flags = kMomentPenumbra | (filter == kFilterMsm ? kMomentRemap : 0);
+    rule.flags = kMomentPenumbra | (filter == GNOMON_FILTER_MSM ? kMomentRemap : 0);
     rule.sampling = 1;
     rule.power = 1.0;
     rule.moment_bias = 3e-6;
@@ -70,7 +70,7 @@ struct Sun {
     double top = 8.0;
     double range = 10.0;
     double tangent = std::tan(1.0 * kDegree); // of half the light's angle
-    int filter = kFilterVsm;
+    int filter = GNOMON_FILTER_VSM;
 
     [[nodiscard]] double depthOf(double height) const { return std::clamp((top - height) / range, 0.0, 1.0); }
     [[nodiscard]] glm::dvec2 placeOf(glm::dvec2 at) const { return (at - 0.5 * kSide) * texel; }
@@ -190,7 +190,7 @@ TEST(MomentPenumbra, BelowAWideRoofAllIsDark)
         sun.draw(2, [](glm::dvec2 q) { return q.x < 0.0 ? 6.0 : 2.0; });
         for (int i = 0; i < 200; ++i) {
             EXPECT_LE(sun.visibility({0.005 * (i - 100), 0.1, 0.0}, {0.0, 0.0, 1.0}, i),
-                      filter == kFilterMsm ? 0.02 : 0.25)
+                      filter == GNOMON_FILTER_MSM ? 0.02 : 0.25)
                 << filter << ", " << i;
         }
     }

@@ -80,7 +80,7 @@ void expectEndpointBoundIsTighter(const glm::dvec4& b, double z)
 {
     const Hankel h = factorise(b, kLeastLastPivot);
     if (h.d1 > 1e-4 && h.d2 > 1e-4 && !rootsInside(h, z, kernelAbout(h, z))) {
-        EXPECT_LE(endpointVisibility(b, z), hamburgerVisibility(h, z) + 1e-9) << z;
+        EXPECT_LE(endpointVisibility(b, z), hamburgerVisibility(h, z, kernelAbout(h, z)) + 1e-9) << z;
     }
 }
 
@@ -307,7 +307,8 @@ TEST(Msm, sixteenBitsLeaveNoSpecksBelowALittleOfAnOccluder)
                     const MomentRule less = msmRule(rule.flags, kBias16 / 4.0);
                     darker_by_bias = std::max(darker_by_bias, 1.0 - share - msmVisibility(stored, z, less));
                     const glm::dvec4 b = biasedMoments(momentsOfQuantised(stored), rule);
-                    const double by_noise = hamburgerVisibility(factorise(b, kLeastLastPivot), z);
+                    const Hankel noisy = factorise(b, kLeastLastPivot);
+                    const double by_noise = hamburgerVisibility(noisy, z, kernelAbout(noisy, z));
                     darker_by_noise = std::max(darker_by_noise, 1.0 - share - by_noise);
                 }
             }
@@ -360,15 +361,15 @@ TEST(Msm, slopesAreLitAndDarkAlike)
                 test::map_moments = [&](glm::dvec2, double, double) {
                     return map;
                 };
-                EXPECT_GT(filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer)), 0.995)
+                EXPECT_GT(filterMsm(point, f, mapReads(f), sampleMoments(point, f, f.layer)), 0.995)
                     << flags << ' ' << sigma << ' ' << steep;
                 darkest_before = std::min(darkest_before, msmVisibility(map, 0.2, f.moments));
                 map = blurredPlane(0.2, 2.0 * point.depth_slope, sigma, flags, -0.4, 1.0);
-                EXPECT_LT(filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer)), 0.005)
+                EXPECT_LT(filterMsm(point, f, mapReads(f), sampleMoments(point, f, f.layer)), 0.005)
                     << flags << ' ' << sigma << ' ' << steep;
                 if (steep * sigma <= 0.005) { // half of it below an occluder
                     map = blurredPlane(0.2, 2.0 * point.depth_slope, sigma, flags, -0.4, 0.5);
-                    EXPECT_NEAR(filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer)), 0.5, 0.02)
+                    EXPECT_NEAR(filterMsm(point, f, mapReads(f), sampleMoments(point, f, f.layer)), 0.5, 0.02)
                         << flags << ' ' << sigma << ' ' << steep;
                 }
             }
@@ -398,7 +399,7 @@ TEST(Msm, slopesAreLitAtCoarserLevelsToo)
             const double sigma = std::sqrt(1.25 * 1.25 + side * side / 12.0);
             return blurredPlane(0.2 + 2.0 * glm::dot(point.depth_slope, texel), 2.0 * point.depth_slope, sigma, 0);
         };
-        EXPECT_GT(filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer)), 0.995) << sampling;
+        EXPECT_GT(filterMsm(point, f, mapReads(f), sampleMoments(point, f, f.layer)), 0.995) << sampling;
         const double of_finest = std::sqrt(1.25 * 1.25 + 1.0 / 3.0) * 2.0 * glm::length(point.depth_slope);
         EXPECT_LT(msmVisibility(sampleMoments(point, f, 0.0), 0.2 - of_finest, f.moments), 0.95) << sampling;
     }
@@ -426,7 +427,7 @@ TEST(Msm, hostileValuesStayInRange)
                             for (const double depth : values) {
                                 point.depth = depth;
                                 const double v =
-                                    filterMsm(point, f, samplingLevel(f), sampleMoments(point, f, f.layer));
+                                    filterMsm(point, f, mapReads(f), sampleMoments(point, f, f.layer));
                                 EXPECT_TRUE(v >= 0.0 && v <= 1.0) << v;
                             }
                         }

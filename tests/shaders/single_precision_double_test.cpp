@@ -55,8 +55,8 @@ double visibilityInDouble(const glm::vec4& stored, const DepthDraw& draw, const 
 TEST(SinglePrecision, isHeldAgainstWhatKnowsLightFromShadow)
 {
     for (const int filter :
-         {shared::kFilterVsm, shared::kFilterLvsm, shared::kFilterEsm, shared::kFilterEvsm, shared::kFilterMsm}) {
-        SingleOptions o{filter, filter == shared::kFilterMsm ? int(shared::kMomentRemap) : 0, 40.0, 1e-6, 1.3e-6};
+         {GNOMON_FILTER_VSM, GNOMON_FILTER_LVSM, GNOMON_FILTER_ESM, GNOMON_FILTER_EVSM, GNOMON_FILTER_MSM}) {
+        SingleOptions o{filter, filter == GNOMON_FILTER_MSM ? int(shared::kMomentRemap) : 0, 40.0, 1e-6, 1.3e-6};
         DepthDraw draw{1, {0.3F}, {1.0F}, 0.9F, 0.0F};
         EXPECT_LT(visibilityInDouble(storedInDouble(draw, o), draw, o), 0.01) << filter;
         draw.receiver = 0.2F;

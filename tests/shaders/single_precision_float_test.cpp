@@ -101,19 +101,19 @@ TEST(SinglePrecision, changesLittleOfAnyFilter)
     // Measured, and half as much again. Where moments are subtracted, digits go: two roundings of 2^-24 in a variance
     // of no less than 1.3e-6 change v / (v + d^2), whose slope in log v is 1/4 at most, by up to 2.3 %.
     const Case cases[] = {
-        {"vsm", {shared::kFilterVsm, 0, 0.0, 0.0, kVariance}, 0.0045, 0.0008},
-        {"vsm, remapped", {shared::kFilterVsm, kRemap, 0.0, 0.0, kVariance / 4.0}, 0.002, 0.0003},
-        {"lvsm", {shared::kFilterLvsm, 0, 0.0, 0.0, kVariance}, 0.0026, 0.0004},
-        {"esm", {shared::kFilterEsm, 0, 80.0, 0.0, 0.0}, 2e-5, 1e-5},
-        {"esm, logarithms", {shared::kFilterEsm, kLog, 300.0, 0.0, 0.0}, 2e-5, 1e-5},
-        {"evsm of two", {shared::kFilterEvsm, 0, 40.0, 0.0, 0.0, kOfPowers}, 3e-4, 2e-5},
-        {"evsm of four", {shared::kFilterEvsm, kFour, 40.0, 0.0, 0.0, kOfPowers, kOfPowers}, 0.002, 2e-4},
+        {"vsm", {GNOMON_FILTER_VSM, 0, 0.0, 0.0, kVariance}, 0.0045, 0.0008},
+        {"vsm, remapped", {GNOMON_FILTER_VSM, kRemap, 0.0, 0.0, kVariance / 4.0}, 0.002, 0.0003},
+        {"lvsm", {GNOMON_FILTER_LVSM, 0, 0.0, 0.0, kVariance}, 0.0026, 0.0004},
+        {"esm", {GNOMON_FILTER_ESM, 0, 80.0, 0.0, 0.0}, 2e-5, 1e-5},
+        {"esm, logarithms", {GNOMON_FILTER_ESM, kLog, 300.0, 0.0, 0.0}, 2e-5, 1e-5},
+        {"evsm of two", {GNOMON_FILTER_EVSM, 0, 40.0, 0.0, 0.0, kOfPowers}, 3e-4, 2e-5},
+        {"evsm of four", {GNOMON_FILTER_EVSM, kFour, 40.0, 0.0, 0.0, kOfPowers, kOfPowers}, 0.002, 2e-4},
         {"evsm of four, logarithms",
-         {shared::kFilterEvsm, kFour | kLog, 40.0, 0.0, 0.0, 40.0 * kOfLogs, 5.0 * kOfLogs},
+         {GNOMON_FILTER_EVSM, kFour | kLog, 40.0, 0.0, 0.0, 40.0 * kOfLogs, 5.0 * kOfLogs},
          8e-4,
          5e-5},
-        {"msm, hamburger", {shared::kFilterMsm, kRemap, 0.0, kDefaultBias, 0.0}, 0.04, kStep},
-        {"msm, hausdorff", {shared::kFilterMsm, kRemap | kHausdorff, 0.0, kDefaultBias, 0.0}, 0.04, kStep},
+        {"msm, hamburger", {GNOMON_FILTER_MSM, kRemap, 0.0, kDefaultBias, 0.0}, 0.04, kStep},
+        {"msm, hausdorff", {GNOMON_FILTER_MSM, kRemap | kHausdorff, 0.0, kDefaultBias, 0.0}, 0.04, kStep},
     };
     for (const Case& c : cases) {
         const Difference off = differenceOf(c.options);
@@ -130,8 +130,8 @@ double hausdorffAboveHamburger(double bias)
     double most = 0.0;
     for (int round = 0; round < kDraws; ++round) {
         const DepthDraw draw = randomDraw(rng, round);
-        const SingleOptions line{shared::kFilterMsm, kRemap, 0.0, bias, 0.0};
-        const SingleOptions interval{shared::kFilterMsm, kRemap | kHausdorff, 0.0, bias, 0.0};
+        const SingleOptions line{GNOMON_FILTER_MSM, kRemap, 0.0, bias, 0.0};
+        const SingleOptions interval{GNOMON_FILTER_MSM, kRemap | kHausdorff, 0.0, bias, 0.0};
         const glm::vec4 stored = storedInDouble(draw, line);
         most = std::max(most, visibilityInSingle(stored, draw, interval) - visibilityInSingle(stored, draw, line));
     }
@@ -141,8 +141,8 @@ double hausdorffAboveHamburger(double bias)
 TEST(SinglePrecision, isWhatTheDefaultBiasOfFourMomentsIsFor)
 {
     for (const double bias : {3e-7, 1e-6, 3e-6, 1e-5}) {
-        const Difference line = differenceOf({shared::kFilterMsm, kRemap, 0.0, bias, 0.0});
-        const Difference interval = differenceOf({shared::kFilterMsm, kRemap | kHausdorff, 0.0, bias, 0.0});
+        const Difference line = differenceOf({GNOMON_FILTER_MSM, kRemap, 0.0, bias, 0.0});
+        const Difference interval = differenceOf({GNOMON_FILTER_MSM, kRemap | kHausdorff, 0.0, bias, 0.0});
         const double above = hausdorffAboveHamburger(bias);
         std::printf("bias %.0e: hamburger off by %.4f, in 99.9 %% by %.4f; hausdorff %.4f, %.4f, above it by %.4f\n",
                     bias, line.most, line.mostly, interval.most, interval.mostly, above);

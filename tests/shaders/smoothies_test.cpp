@@ -72,7 +72,7 @@ struct HalfPlane {
         f.toward = toward;
         f.spread = spread;
         f.smoothies = reach;
-        return applyFilter(kFilterHard, projectReceiver(rows, {}, p, f.n), f);
+        return applyFilter(GNOMON_FILTER_HARD, projectReceiver(rows, {}, p, f.n), f);
     }
 };
 

@@ -333,11 +333,11 @@ TEST_F(Vsm, numbersInTheTablesAreThoseOfTheEnum)
 {
     stored = {0.5, 0.3, 0.0, 0.0};
     point.depth = 0.7;
-    EXPECT_EQ(applyFilter(kFilterVsm, point, input), filterVsm(point, input, sampleMoments(point, input, input.layer)));
+    EXPECT_EQ(applyFilter(GNOMON_FILTER_VSM, point, input), filterVsm(point, input, sampleMoments(point, input, input.layer)));
     EXPECT_LT(filterVsm(point, input, sampleMoments(point, input, input.layer)), 1.0);
     EncodeInput e{};
     e.depth = 0.3;
-    EXPECT_EQ(encodeDepth(kFilterVsm, e, input.moments), glm::dvec4(0.3, 0.3 * 0.3, 0.0, 0.0));
+    EXPECT_EQ(encodeDepth(GNOMON_FILTER_VSM, e, input.moments), glm::dvec4(0.3, 0.3 * 0.3, 0.0, 0.0));
 }
 
 } // namespace

@@ -217,5 +217,7 @@ public:
 };
 
 [[nodiscard]] ShaderModule makeShader(Device& device, std::span<const std::uint32_t> spirv);
+/// The library's module of this name (shaders/CMakeLists.txt); empty: there is none.
+[[nodiscard]] std::span<const std::uint32_t> shaderCalled(std::string_view name);
 
 } // namespace gnomon::vulkan

@@ -8,7 +8,7 @@
 #include <gnomon_spirv.h>
 
 #include <algorithm>
-#include <array>
+#include <string>
 
 namespace gnomon::vulkan {
 namespace {
@@ -20,18 +20,10 @@ struct MaskCode {
     std::span<const std::uint32_t> alone;
 };
 
-MaskCode codeOf(pack::FilterModule module)
+MaskCode codeOf(Filter module)
 {
-    using namespace spirv;
-    const std::array<MaskCode, static_cast<std::size_t>(pack::FilterModule::count)> codes{
-        {{mask_hard_frag, mask_hard_one_frag},
-         {mask_pcf_frag, mask_pcf_one_frag},
-         {mask_pcss_frag, mask_pcss_one_frag},
-         {mask_raymarch_frag, mask_raymarch_one_frag},
-         {mask_moments_frag, mask_moments_one_frag},
-         {mask_warped_frag, mask_warped_one_frag},
-         {mask_ids_frag, {}}}};
-    return codes[static_cast<std::size_t>(module)];
+    const std::string name(nameOf(module));
+    return {shaderCalled("mask_" + name + ".frag"), shaderCalled("mask_" + name + "_one.frag")};
 }
 
 } // namespace
@@ -73,7 +65,7 @@ MaskPipelines::MaskPipelines(Device& device, const ShadowRendererOptions& option
 VkPipeline MaskPipelines::get(MaskPipelineKey key, VkPipelineLayout layout)
 {
     if (key.told_apart == pack::ToldApart::alone) { // one module for both kinds of view, where there is one
-        const bool pairs = key.module == pack::FilterModule::hard || key.module == pack::FilterModule::pcf; // mask.frag
+        const bool pairs = key.module == Filter::hard || key.module == Filter::pcf; // mask.frag
         const bool has_module =
             vertex_one_ && !codeOf(key.module).alone.empty() && (pairs || key.constants.paired == VK_FALSE);
         key.told_apart = has_module ? pack::ToldApart::alone : pack::ToldApart::tests;

@@ -42,7 +42,7 @@ enum class DrawnAs : std::uint8_t {
 };
 
 struct MaskPipelineKey {
-    pack::FilterModule module = pack::FilterModule::pcf;
+    Filter module = Filter::pcf; // pack::filterModule()
     MaskConstants constants;
     VkFormat format = VK_FORMAT_UNDEFINED; // the mask's format
     pack::ToldApart told_apart = pack::ToldApart::tests;

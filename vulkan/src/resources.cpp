@@ -158,6 +158,15 @@ std::span<const std::uint32_t> hooked(const ShaderHook& hook, std::span<const st
 
 } // namespace
 
+std::span<const std::uint32_t> shaderCalled(std::string_view name)
+{
+    const auto* const found =
+        std::find(std::begin(spirv::names_of_gnomon_spirv), std::end(spirv::names_of_gnomon_spirv), name);
+    return found == std::end(spirv::names_of_gnomon_spirv)
+               ? std::span<const std::uint32_t>{}
+               : *spirv::all_of_gnomon_spirv[found - std::begin(spirv::names_of_gnomon_spirv)];
+}
+
 ShaderModule makeShader(Device& device, std::span<const std::uint32_t> spirv)
 {
     if (device.shaderHook().words != nullptr) {

@@ -5,6 +5,8 @@
 
 #include <gnomon/export.h>
 
+#include <gnomon/shared/filter_numbers.h>
+
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,18 +23,18 @@ enum class Partition : std::uint8_t { single, cascades, sdsm, cube, paraboloid, 
 enum class Fit : std::uint8_t { uniform, lispsm, lispsm_simple, tsm, psm, scene, automatic };
 /// The value that a texel stores, and the test that reads it: docs/which-technique.md.
 enum class Filter : std::uint8_t {
-    hard,
-    pcf,
-    pcss,
-    raymarch,
-    vsm,
-    lvsm,
-    esm,
-    evsm,
-    msm,
-    id,
-    depth_id,
-    volumes,
+    hard = GNOMON_FILTER_HARD,
+    pcf = GNOMON_FILTER_PCF,
+    pcss = GNOMON_FILTER_PCSS,
+    raymarch = GNOMON_FILTER_RAYMARCH,
+    vsm = GNOMON_FILTER_VSM,
+    lvsm = GNOMON_FILTER_LVSM,
+    esm = GNOMON_FILTER_ESM,
+    evsm = GNOMON_FILTER_EVSM,
+    msm = GNOMON_FILTER_MSM,
+    id = GNOMON_FILTER_ID,
+    depth_id = GNOMON_FILTER_DEPTH_ID,
+    volumes, // these have no shader of their own
     smoothies,
     automatic
 };
@@ -113,16 +115,17 @@ struct ChoiceValue {
 
 /// Facts of a filter that planning and the backend need; one row per filter but automatic.
 struct FilterTraits {
-    Filter filter;                      // whose facts these are
-    std::span<const MapFormat> formats; // usable, the default first
-    bool depth_only;                    // a bare depth attachment can hold it
-    bool clamps_near;                   // a caster before the near plane may be clamped onto it
-    bool filterable;                    // texels may be averaged: MomentOptions apply, and receivers are drawn too
-    bool integrates_light;              // it always does, by comparing single depths: see integratesLight() (options.h)
-    bool weighs_frames;   // Soften::converge: a frame counts for more, the nearer to a texel's centre it reads
-    bool ids = false;     // texels hold ids of objects (object_ids.h): receivers are drawn too, and the mask gets the
-                          // object of each pixel
-    bool has_maps = true; // false: it counts faces of shadow volumes, and a light so planned has no views
+    Filter filter;                       // whose facts these are
+    std::span<const MapFormat> formats;  // usable, the default first
+    std::string_view formats_reason;     // the sentence for a user who asks for another format
+    bool depth_only = false;             // a bare depth attachment can hold it
+    bool clamps_near = false;            // a caster before the near plane may be clamped onto it
+    bool filterable = false;             // texels may be averaged: MomentOptions apply, and receivers are drawn too
+    bool integrates_light = false;       // it always does, by comparing single depths: integratesLight() (options.h)
+    bool weighs_frames = false;          // Soften::converge: a frame counts for more, the nearer to a texel's centre it reads
+    bool ids = false;                    // texels hold ids of objects (object_ids.h): receivers are drawn too, and the mask gets
+                                         // the object of each pixel
+    bool has_maps = true;                // false: it counts faces of shadow volumes, and a light so planned has no views
 };
 /// The row of a filter. Null for automatic, which stands for another filter (filterOf()).
 [[nodiscard]] GNOMON_API const FilterTraits* filterTraits(Filter filter);

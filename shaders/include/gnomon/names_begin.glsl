@@ -124,7 +124,6 @@
 #define hamburgerOccluders gnomon_hamburgerOccluders
 #define hamburgerVisibility gnomon_hamburgerVisibility
 #define hasFlag gnomon_hasFlag
-#define hausdorffVisibility gnomon_hausdorffVisibility
 #define idIsBehind gnomon_idIsBehind
 #define idLights gnomon_idLights
 #define idOfPiece gnomon_idOfPiece
@@ -166,17 +165,6 @@
 #define kEdgeOn gnomon_kEdgeOn
 #define kFarthestNeighbour gnomon_kFarthestNeighbour
 #define kFewViews gnomon_kFewViews
-#define kFilterDepthId gnomon_kFilterDepthId
-#define kFilterEsm gnomon_kFilterEsm
-#define kFilterEvsm gnomon_kFilterEvsm
-#define kFilterHard gnomon_kFilterHard
-#define kFilterId gnomon_kFilterId
-#define kFilterLvsm gnomon_kFilterLvsm
-#define kFilterMsm gnomon_kFilterMsm
-#define kFilterPcf gnomon_kFilterPcf
-#define kFilterPcss gnomon_kFilterPcss
-#define kFilterRaymarch gnomon_kFilterRaymarch
-#define kFilterVsm gnomon_kFilterVsm
 #define kFlat gnomon_kFlat
 #define kGrazing gnomon_kGrazing
 #define kHardlyFaces gnomon_kHardlyFaces
@@ -298,6 +286,7 @@
 #define mapGather gnomon_mapGather
 #define mapGradient gnomon_mapGradient
 #define mapMoments gnomon_mapMoments
+#define mapReads gnomon_mapReads
 #define mapSmoothie gnomon_mapSmoothie
 #define mapTexel gnomon_mapTexel
 #define mapW gnomon_mapW
@@ -370,7 +359,6 @@
 #define rowsAt gnomon_rowsAt
 #define rowsOf gnomon_rowsOf
 #define sampleMoments gnomon_sampleMoments
-#define samplingLevel gnomon_samplingLevel
 #define secondPolynomial gnomon_secondPolynomial
 #define shapeVisibility gnomon_shapeVisibility
 #define shareOfLogRounding gnomon_shareOfLogRounding

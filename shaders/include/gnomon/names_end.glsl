@@ -124,7 +124,6 @@
 #undef hamburgerOccluders
 #undef hamburgerVisibility
 #undef hasFlag
-#undef hausdorffVisibility
 #undef idIsBehind
 #undef idLights
 #undef idOfPiece
@@ -166,17 +165,6 @@
 #undef kEdgeOn
 #undef kFarthestNeighbour
 #undef kFewViews
-#undef kFilterDepthId
-#undef kFilterEsm
-#undef kFilterEvsm
-#undef kFilterHard
-#undef kFilterId
-#undef kFilterLvsm
-#undef kFilterMsm
-#undef kFilterPcf
-#undef kFilterPcss
-#undef kFilterRaymarch
-#undef kFilterVsm
 #undef kFlat
 #undef kGrazing
 #undef kHardlyFaces
@@ -298,6 +286,7 @@
 #undef mapGather
 #undef mapGradient
 #undef mapMoments
+#undef mapReads
 #undef mapSmoothie
 #undef mapTexel
 #undef mapW
@@ -370,7 +359,6 @@
 #undef rowsAt
 #undef rowsOf
 #undef sampleMoments
-#undef samplingLevel
 #undef secondPolynomial
 #undef shapeVisibility
 #undef shareOfLogRounding

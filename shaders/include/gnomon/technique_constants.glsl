@@ -23,7 +23,7 @@ layout(constant_id = GNOMON_CONSTANT_ID + 5) const int gnomon_moment_layers = 2;
 layout(constant_id = GNOMON_CONSTANT_ID + 6) const int gnomon_depth_holding = 0;   // see gnomon/shared/paired_depth.h
 layout(constant_id = GNOMON_CONSTANT_ID + 7) const uint gnomon_few_view_count = 0; // how many views its one light has; 0: any number of lights and views
 
-layout(constant_id = GNOMON_CONSTANT_ID + 8) const int gnomon_filter = 1; // a number of choice_numbers.h; not read with
+layout(constant_id = GNOMON_CONSTANT_ID + 8) const int gnomon_filter = 1; // a number of filter_numbers.h; not read with
                                                                           // GNOMON_FILTER
 
 #define GNOMON_FILTER_NUMBER gnomon_filter

@@ -5,7 +5,7 @@
 // Define beforehand, if the defaults do not suit:
 //   GNOMON_SET      descriptor set of the bindings below (0)
 //   GNOMON_BINDING  the first of them (0)
-//   GNOMON_FILTER   GNOMON_FILTER_PCF or another macro of gnomon/shared/choice_numbers.h: the only filter that is
+//   GNOMON_FILTER   GNOMON_FILTER_PCF or another macro of gnomon/shared/filter_numbers.h: the only filter that is
 //                   compiled, which the options must have. Without it all are compiled, and GpuRule or the constant of
 //                   technique_constants.glsl chooses
 //   GNOMON_FILTERS  in its place: the bits of the filters to compile (1 << GNOMON_FILTER_PCF)

@@ -7,16 +7,13 @@
 #include <gnomon/plan.h>
 
 #include <cstdint>
-#include <string_view>
 
 namespace gnomon::pack {
 
-/// Which shader module has a filter. Those that are alike share one, and TechniqueConstants::filter chooses there.
-enum class FilterModule : std::uint8_t { hard, pcf, pcss, raymarch, moments, warped, ids, count };
-/// The module's name in shaders/CMakeLists.txt, and for hosts in GNOMON_FILTER_MODULES; static text.
-[[nodiscard]] GNOMON_API std::string_view nameOf(FilterModule module);
-/// The module of the filter that reads maps of these options (readingFilter()).
-[[nodiscard]] GNOMON_API FilterModule filterModule(const ResolvedOptions& options);
+/// The filter whose shader module reads maps of these options: readingFilter(), and `id` for `depth_id` too, because
+/// those share a module where TechniqueConstants::filter chooses. nameOf() is the module's name in
+/// shaders/CMakeLists.txt and in GNOMON_FILTER_MODULES.
+[[nodiscard]] GNOMON_API Filter filterModule(const ResolvedOptions& options);
 
 /// The constants of gnomon/technique_constants.glsl: four bytes each, in their order.
 struct TechniqueConstants {
@@ -28,7 +25,7 @@ struct TechniqueConstants {
     std::int32_t moment_layers = 0;   // layers of lvsm, else 0
     std::int32_t depth_holding = 0;   // how a texel holds depths: depthHolding()
     std::uint32_t few_views = 0;      // fewViewsOf() of the frame's plan
-    std::int32_t filter = 0;          // readingFilter(), for a module with several filters
+    std::int32_t filter = 0;          // readingFilter(), for a module of two filters
 
     bool operator==(const TechniqueConstants&) const = default;
 };

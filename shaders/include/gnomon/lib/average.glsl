@@ -13,13 +13,13 @@
 // need is never run.
 #ifndef GNOMON_AVERAGE_GLSL
 #define GNOMON_AVERAGE_GLSL
-#include "../shared/choice_numbers.h"
+#include "../shared/filter_numbers.h"
 #include "../shared/exponential.h"
 GN_BEGIN
 
 GN_FN bool averagesLogarithms(int filter_number, int flags)
 {
-    return hasFlag(flags, kMomentLogSpace) && (filter_number == kFilterEsm || filter_number == kFilterEvsm);
+    return hasFlag(flags, kMomentLogSpace) && (filter_number == GNOMON_FILTER_ESM || filter_number == GNOMON_FILTER_EVSM);
 }
 
 // k of each channel; 0 where values are averaged as they are.
@@ -28,7 +28,7 @@ GN_FN real4 averageExponents(int filter_number, MomentRule rule)
     if (!averagesLogarithms(filter_number, rule.flags)) {
         return real4(real(0.0));
     }
-    return filter_number == kFilterEsm ? esmExponents(rule) : evsmExponents(rule);
+    return filter_number == GNOMON_FILTER_ESM ? esmExponents(rule) : evsmExponents(rule);
 }
 
 struct MomentSum {

@@ -40,34 +40,39 @@ GN_FN real esmExcessAt(MapPoint point, FilterInput f, real2 offset, real level)
     return esmExcess(mapMoments(place, level, f.layer).x, t, f.moments);
 }
 
-GN_FN real esmWithRing(MapPoint point, FilterInput f, real excess, real weight)
+GN_FN real esmWithRing(MapPoint point, FilterInput f, real level, real excess, real weight)
 {
-    real level = samplingLevel(f);
-    real r = kRing * exp2(level);
-    real4 ring = real4(esmExcessAt(point, f, real2(r, real(0.0)), level),
-                       esmExcessAt(point, f, real2(-r, real(0.0)), level),
-                       esmExcessAt(point, f, real2(real(0.0), r), level),
-                       esmExcessAt(point, f, real2(real(0.0), -r), level));
-    real4 over = max(ring, real4(real(0.0)));
-    // Over the least of them, so that the largest trust is 1, whatever e^x may be.
-    real least = min(max(excess, real(0.0)), min(min(over.x, over.y), min(over.z, over.w)));
-    real own = exp(least - max(excess, real(0.0)));
-    real4 trust = exp(real4(least) - over) * weight;
-    real4 lit = exp(min(ring, real4(real(0.0))));
-    return (own * esmVisibility(excess) + dot(trust, lit)) / (own + dot(trust, real4(real(1.0))));
+    real2 step = real2(kRing * exp2(level), real(0.0));
+    // Trust is over that of the least excess so far, so that the largest is 1, whatever e^x may be.
+    real least = max(excess, real(0.0));
+    real trusted = real(1.0);
+    real lit = esmVisibility(excess);
+    for (int i = 0; i < 4; ++i) {
+        real x = esmExcessAt(point, f, step, level);
+        real over = max(x, real(0.0));
+        real less = min(least, over);
+        real kept = exp(less - least);
+        real trust = exp(less - over) * weight;
+        lit = lit * kept + trust * exp(min(x, real(0.0)));
+        trusted = trusted * kept + trust;
+        least = less;
+        step = real2(-step.y, step.x);
+    }
+    return lit / trusted;
 }
 
 GN_FN real filterEsm(MapPoint point, FilterInput f)
 {
     real t = esmCoordinate(point.depth, f);
-    real excess = esmExcess(sampleMoments(point, f, f.layer).x, t, f.moments);
+    FootprintReads reads = mapReads(f);
+    real excess = esmExcess(sampleMoments(point, f, f.layer, reads).x, t, f.moments);
     real v = esmVisibility(excess);
     // The bias of a lit receiver, a texel's depth, also makes an excess and is allowed for.
     real stretch = metricStretch(point.depth, f.moments.flags, f.near_over_far);
     real allowed = esmExponents(f.moments).x * momentScale(f.moments.flags) * stretch * point.texel_depth;
     real surplus = excess - allowed;
     if (surplus > real(0.0)) {
-        v = esmWithRing(point, f, excess, kRingWeight * (real(1.0) - exp(-surplus)));
+        v = esmWithRing(point, f, reads.level, excess, kRingWeight * (real(1.0) - exp(-surplus)));
     }
     return shapeVisibility(v, f.moments);
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of filters. A new one is a file in this folder, a number in gnomon/shared/choice_numbers.h, and its lines here.
+// The table of filters. A new one is a file in this folder, a number in gnomon/shared/filter_numbers.h, and its lines here.
 // compiled_filters.glsl says which are compiled.
 #ifndef GNOMON_FILTERS_GLSL
 #define GNOMON_FILTERS_GLSL
-#include "../shared/choice_numbers.h"
 #include "compiled_filters.glsl"
 #include "filter_types.glsl"
 #if GNOMON_COMPILES(GNOMON_FILTER_HARD)

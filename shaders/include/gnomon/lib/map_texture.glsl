@@ -9,7 +9,6 @@
 #ifndef GNOMON_MAP_TEXTURE_GLSL
 #define GNOMON_MAP_TEXTURE_GLSL
 #include "../shared/gpu_structs.h"
-#include "../shared/choice_numbers.h"
 #include "compiled_filters.glsl"
 #include "../shared/map_blocks.h"
 #include "../shared/paired_depth.h"
@@ -75,7 +74,7 @@ vec4 mapMoments(vec2 texel, float level, float layer)
     return textureLod(gnomon_maps, vec3(texel * GNOMON_MAP_TEXEL_SIZE, layer), level);
 }
 
-#ifdef GNOMON_LAYERS_BINDING
+#if defined(GNOMON_LAYERS_BINDING) && GNOMON_COMPILES(GNOMON_FILTER_LVSM)
 layout(set = GNOMON_MAP_SET, binding = GNOMON_LAYERS_BINDING, std430) readonly buffer GnomonDepthLayers
 {
     GpuDepthLayers gnomon_depth_layers[]; // by slot

@@ -41,12 +41,12 @@ GN_FN MapPoint pointOnPlane(MapPoint point, FilterInput f, real level, real2 pla
     return q;
 }
 
-GN_FN Occluders tapOccluders(int filter_number, MapPoint q, FilterInput f, real level)
+GN_FN Occluders tapOccluders(int filter_number, MapPoint q, FilterInput f, FootprintReads reads)
 {
-    real4 stored = sampleMoments(q, f, f.layer, level);
+    real4 stored = sampleMoments(q, f, f.layer, reads);
     Occluders o;
-    if (filter_number == kFilterMsm) {
-        o = msmOccluders(q, f, level, stored);
+    if (filter_number == GNOMON_FILTER_MSM) {
+        o = msmOccluders(q, f, reads, stored);
     } else {
         o = vsmOccluders(q, f, stored);
     }
@@ -61,7 +61,7 @@ GN_FN real coneWidth(RayCone cone, MapPoint point, real s)
 }
 
 // How far along the cone the mean occluder is; 0: there is none.
-GN_FN real occluderReach(int filter_number, MapPoint point, FilterInput f, real level, RayCone cone, ConeNoise noise)
+GN_FN real occluderReach(int filter_number, MapPoint point, FilterInput f, FootprintReads reads, RayCone cone, ConeNoise noise)
 {
     real widest = coneReach(cone, real(0.0), kDiscEnd);
     real widest_texels = coneWidth(cone, point, widest);
@@ -72,8 +72,8 @@ GN_FN real occluderReach(int filter_number, MapPoint point, FilterInput f, real 
         real2 at = pointOfLight(noise, i, kMomentSearchTaps);
         real r2 = dot(at, at); // a share of the taps lies within it; they are moved to its square
         at = at * (r2 * length(at));
-        MapPoint q = pointOnPlane(point, f, level, coneTexel(cone, widest, at));
-        Occluders o = tapOccluders(filter_number, q, f, level);
+        MapPoint q = pointOnPlane(point, f, reads.level, coneTexel(cone, widest, at));
+        Occluders o = tapOccluders(filter_number, q, f, reads);
         real depth = max(min(q.depth, real(1.0)) - o.height, real(0.0)); // nothing is drawn before 0
         real height = point.depth - depth;
         real here = coneWidth(cone, point, coneReach(cone, depth, kDiscEnd));
@@ -96,10 +96,10 @@ GN_FN real applyMoments(int filter_number, MapPoint point, FilterInput f)
     bool follows_light = hasFlag(f.moments.flags, kMomentPenumbra);
     RayCone cone = rayCone(point, f);
     ConeNoise noise = coneNoise(noisePlace(f));
-    real level = samplingLevel(f);
+    FootprintReads reads = mapReads(f);
     real s = real(0.0);
     if (follows_light) {
-        s = occluderReach(filter_number, point, f, level, cone, noise);
+        s = occluderReach(filter_number, point, f, reads, cone, noise);
     }
     int taps = follows_light ? kMomentTaps : 1;
     real lit = real(0.0);
@@ -109,13 +109,13 @@ GN_FN real applyMoments(int filter_number, MapPoint point, FilterInput f)
         bool faces = true;
         if (follows_light) {
             real2 at = pointOfLight(noise, i, kMomentTaps);
-            q = pointOnPlane(point, f, level, coneTexel(cone, s, at));
+            q = pointOnPlane(point, f, reads.level, coneTexel(cone, s, at));
             faces = dot(cone.facing, real3(real(1.0), at.x, at.y)) > real(0.0);
         }
-        real4 stored = sampleMoments(q, f, f.layer, level);
+        real4 stored = sampleMoments(q, f, f.layer, reads);
         real v = real(1.0);
-        if (filter_number == kFilterMsm) {
-            v = filterMsm(q, f, level, stored);
+        if (filter_number == GNOMON_FILTER_MSM) {
+            v = filterMsm(q, f, reads, stored);
         } else {
             v = filterVsm(q, f, stored);
         }

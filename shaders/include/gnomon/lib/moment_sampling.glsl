@@ -23,36 +23,34 @@ GN_FN real4 readMoments(real2 texel, real level, FilterInput f, real layer)
     return mapMoments(keepInside(texel, level, f.tile), level, layer);
 }
 
-// The level of each of sampleMoments()' reads.
-GN_FN real samplingLevel(FilterInput f)
+// The reads of a map that f.moments.sampling asks for: several only where it is anisotropic.
+GN_FN FootprintReads mapReads(FilterInput f)
 {
-    if (f.moments.sampling < kSamplingTrilinear)
-        return real(0.0);
-    if (f.moments.sampling == kSamplingTrilinear)
-        return footprintLevel(f.footprint_x, f.footprint_y, f.coarsest);
-    return footprintReads(f.footprint_x, f.footprint_y, f.coarsest, f.moments.anisotropy).level;
+    if (f.moments.sampling > kSamplingTrilinear)
+        return footprintReads(f.footprint_x, f.footprint_y, f.coarsest, f.moments.anisotropy);
+    FootprintReads one;
+    one.reads = 1;
+    one.step = real2(real(0.0));
+    one.level = f.moments.sampling == kSamplingTrilinear ? footprintLevel(f.footprint_x, f.footprint_y, f.coarsest)
+                                                         : real(0.0);
+    return one;
 }
 
-// `level`: samplingLevel().
-GN_FN real4 sampleMoments(MapPoint point, FilterInput f, real layer, real level)
+GN_FN real4 sampleMoments(MapPoint point, FilterInput f, real layer, FootprintReads reads)
 {
-    if (f.moments.sampling <= kSamplingTrilinear) {
-        bool nearest = f.moments.sampling == kSamplingNearest;
-        real2 texel = nearest ? floor(point.texel) + real2(real(0.5)) : point.texel;
-        return readMoments(texel, level, f, layer);
-    }
-    FootprintReads r = footprintReads(f.footprint_x, f.footprint_y, f.coarsest, f.moments.anisotropy);
+    bool nearest = f.moments.sampling == kSamplingNearest;
+    real2 texel = nearest ? floor(point.texel) + real2(real(0.5)) : point.texel;
     real4 sum = real4(real(0.0));
-    for (int i = 0; i < r.reads; ++i) {
-        real2 offset = r.step * (real(i) + real(0.5) - real(0.5) * real(r.reads));
-        sum += readMoments(point.texel + offset, level, f, layer);
+    for (int i = 0; i < reads.reads; ++i) {
+        real2 offset = reads.step * (real(i) + real(0.5) - real(0.5) * real(reads.reads));
+        sum += readMoments(texel + offset, reads.level, f, layer);
     }
-    return sum / real(r.reads);
+    return sum / real(reads.reads);
 }
 
 GN_FN real4 sampleMoments(MapPoint point, FilterInput f, real layer)
 {
-    return sampleMoments(point, f, layer, samplingLevel(f));
+    return sampleMoments(point, f, layer, mapReads(f));
 }
 
 GN_END

@@ -21,17 +21,13 @@ GN_BEGIN
 GN_CONST real kVarianceOfRead = real(1.0) / real(3.0);
 
 // Standard deviation of the receiver's own plane in the kernel, in the depth metric.
-GN_FN real planeDeviation(MapPoint point, FilterInput f, real level)
+GN_FN real planeDeviation(MapPoint point, FilterInput f, FootprintReads reads)
 {
     real2 slope = point.depth_slope - point.w_slope * point.depth; // of depth itself, per texel
-    real variance = f.moments.min_variance_texels * f.moments.min_variance_texels + kVarianceOfRead * exp2(real(2.0) * level);
+    real variance = f.moments.min_variance_texels * f.moments.min_variance_texels + kVarianceOfRead * exp2(real(2.0) * reads.level);
     variance = variance * dot(slope, slope);
-    if (f.moments.sampling > kSamplingTrilinear) {
-        FootprintReads r = footprintReads(f.footprint_x, f.footprint_y, f.coarsest, f.moments.anisotropy);
-        real along = dot(slope, r.step);
-        variance += along * along * (real(r.reads * r.reads) - real(1.0)) / real(12.0);
-    }
-    return sqrt(variance);
+    real along = dot(slope, reads.step);
+    return sqrt(variance + along * along * (real(reads.reads * reads.reads) - real(1.0)) / real(12.0));
 }
 
 // Mean square distances from the receiver, in squares of the plane's deviation, from where on the kernel holds more than
@@ -49,26 +45,26 @@ GN_FN real msmAllowance(real4 b, real t, real deviation)
 }
 
 // The coordinate that a receiver is tested at, with the moments that were read.
-GN_FN real msmCoordinate(MapPoint point, FilterInput f, real level, real4 stored)
+GN_FN real msmCoordinate(MapPoint point, FilterInput f, FootprintReads reads, real4 stored)
 {
     int flags = f.moments.flags;
     real t = momentCoordinate(receiverDepth(point.depth, flags, f.near_over_far), flags);
-    real before = point.depth - planeDeviation(point, f, level);
+    real before = point.depth - planeDeviation(point, f, reads);
     real deviation = t - momentCoordinate(receiverDepth(before, flags, f.near_over_far), flags);
     real4 b = hasFlag(flags, kMomentQuantised) ? momentsOfQuantised(stored) : stored;
     return t - msmAllowance(b, t, deviation);
 }
 
-// `level`: samplingLevel(), `stored`: sampleMoments() at the point; here and below.
-GN_FN Occluders msmOccluders(MapPoint point, FilterInput f, real level, real4 stored)
+// `reads`: mapReads(), `stored`: sampleMoments() at the point; here and below.
+GN_FN Occluders msmOccluders(MapPoint point, FilterInput f, FootprintReads reads, real4 stored)
 {
     Hankel h = factorise(usableMoments(stored, f.moments), leastLastPivot(f.moments.flags));
-    return hamburgerOccluders(h, msmCoordinate(point, f, level, stored), momentScale(f.moments.flags));
+    return hamburgerOccluders(h, msmCoordinate(point, f, reads, stored), momentScale(f.moments.flags));
 }
 
-GN_FN real filterMsm(MapPoint point, FilterInput f, real level, real4 stored)
+GN_FN real filterMsm(MapPoint point, FilterInput f, FootprintReads reads, real4 stored)
 {
-    return shapeVisibility(msmVisibility(stored, msmCoordinate(point, f, level, stored), f.moments), f.moments);
+    return shapeVisibility(msmVisibility(stored, msmCoordinate(point, f, reads, stored), f.moments), f.moments);
 }
 
 GN_END

@@ -5,6 +5,7 @@
 #define GNOMON_VISIBILITY_GLSL
 #include "../shared/gpu_structs.h"
 #include "../shared/smooth_surface.h"
+#include "../shared/choice_numbers.h"
 #include "filters.glsl"
 #include "receiver_footprint.glsl"
 #include "facing.glsl"

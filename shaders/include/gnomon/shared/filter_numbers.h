@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers of gnomon::Filter. Macros, because the preprocessor chooses by them; choice_numbers.h has them as
-// constants.
+// The numbers of gnomon::Filter, which takes them from here. CMake reads this list too: each filter has a module of the
+// mask pass. Macros, because the preprocessor chooses by them.
 #ifndef GNOMON_FILTER_NUMBERS_H
 #define GNOMON_FILTER_NUMBERS_H
 #define GNOMON_FILTER_HARD 0
