@@ -66,7 +66,7 @@ private:
 /// An optional part of a device: vulkan::OptionalPart, or one of the program's own.
 struct GpuPart {
     std::string name;
-    std::string serves;  // what it is for
+    std::string serves;  // its purpose
     std::string without; // the consequence where it is lacking
     bool there = false;
 };

@@ -18,8 +18,8 @@ namespace gnomon::host {
 /// The images of a frame once all its passes are recorded. A reader must wait for their writes. By its `layout` the
 /// picture is read by copies, all others by shaders. They hold until the next frame is recorded.
 struct FinishedFrame {
-    VkExtent2D drawn{};         // of all images but picture and glow: twice `shown` on each side with supersampling
-    VkExtent2D shown{};         // of the picture
+    VkExtent2D drawn{};         // size of all images except picture and glow; twice `shown` a side with supersampling
+    VkExtent2D shown{};         // the picture's size
     vulkan::ImageRef picture;   // sRGB-encoded, RGBA8
     vulkan::ImageRef light;     // radiance before the tone curve, RGBA16F; null where shading applied the tone curve
                                 // (RenderOptions::keeps_light)

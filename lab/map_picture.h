@@ -20,7 +20,7 @@ struct MapLegend {
     std::string subtitle; // at most 50
     std::string low;      // texts for the least value, and the greatest
     std::string high;
-    std::function<std::string(double)> text_of; // of a value, with its unit
+    std::function<std::string(double)> text_of; // the text of a value, with its unit
 };
 /// The least and the greatest finite value; least > greatest where there is none.
 struct ValueRange {

@@ -30,8 +30,8 @@ struct PathTechnique {
     std::optional<Stability> stability;      // absent with one frame, and where no pixel has a match
     std::vector<std::optional<double>> rmse; // by frame; absent where no pixel counts
     std::vector<StabilityMeter::Step> steps; // by frame, from the second on
-    Timed timed;                             // of every frame but the first, which warms up, unless there is but one
-    std::vector<ShownFrame> shown;           // of the frames that were to be shown
+    Timed timed;                             // every frame but the first, which warms up, unless there is but one
+    std::vector<ShownFrame> shown;           // the frames that were to be shown
 };
 
 /// Contestants that walk a path together. Each has one renderer from the first frame to the last, so that valid maps

@@ -49,7 +49,7 @@ struct StageTimes {
 
 /// Work that does not depend on the machine, of one frame.
 struct Counters {
-    std::uint64_t texels_rendered = 0; // of all tiles that were drawn, and of kept layers
+    std::uint64_t texels_rendered = 0; // texels of all tiles that were drawn, and of kept layers
     bool has_statistics = false;       // the device counts: the next four hold
     std::uint64_t vertex_invocations = 0;
     std::uint64_t primitives = 0;
@@ -58,7 +58,7 @@ struct Counters {
     std::uint64_t draws = 0;
     std::uint64_t passes = 0;
     std::uint64_t bytes_minimum = 0; // leastBytes() of lab/score/traffic.h; 0 without shadows
-    vulkan::FilterCost filter;       // of the blur; countersOf() leaves it at zeros
+    vulkan::FilterCost filter;       // the blur's cost; countersOf() leaves it at zeros
 };
 [[nodiscard]] Counters countersOf(const host::FrameTimes& times, const Plan& plan, bool redraws_all);
 
@@ -71,12 +71,12 @@ struct TimingOptions {
 /// The results of one technique's frames.
 struct Timed {
     std::vector<host::FrameTimes> samples;
-    Counters counters; // of the last frame
-    LeastByPass least; // of the last frame
-    Plan plan;         // of the last frame; without shadows: empty
+    Counters counters; // counters of the last frame
+    LeastByPass least; // the least traffic of the last frame
+    Plan plan;         // the plan of the last frame; without shadows: empty
     MapPages atlas;
     std::vector<std::pair<std::string, std::uint64_t>> added_memory; // beyond the frame without shadows, by purpose
-    Waits waits;                                                     // of timeInTurn()'s samples; else nothing
+    Waits waits;                                                     // between timeInTurn()'s samples; else empty
     double mean_texels_rendered = 0.0; // Counters::texels_rendered over the samples: less where maps are kept
     double baseline_ms = 0.0;          // median frame without shadows among the turns that these samples took
 };

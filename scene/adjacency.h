@@ -21,7 +21,7 @@ struct MeshEdge {
 
 struct Adjacency {
     std::vector<std::array<std::uint32_t, 3>> triangles; // in the primitive's order, without those of no area
-    std::vector<std::uint32_t> first_indices;            // of each: its first vertex as the primitive's indices have it
+    std::vector<std::uint32_t> first_indices; // by triangle: its first vertex, as the primitive's indices name it
     /// Each triangle is at three of them. Where more than two triangles share an edge, they are taken in pairs, each of
     /// one that runs one way and one that runs the other.
     std::vector<MeshEdge> edges;

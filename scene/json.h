@@ -230,7 +230,7 @@ private:
     JsonOwner& owner_;
     Json root_;
     std::vector<Json*> stack_;
-    std::vector<std::set<std::string>> names_; // of each object on the stack, where the tree is slow to say
+    std::vector<std::set<std::string>> names_; // the names of each object on the stack, where the tree is slow to say
     std::vector<std::string> steps_;           // one per container below the root
     std::string key_;
 };

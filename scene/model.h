@@ -107,7 +107,7 @@ struct Primitive {
     std::vector<std::uint32_t> indices;
     std::vector<MorphTarget> morph_targets;
     std::uint32_t material = kNone; // kNone: the default material
-    Aabb bounds;                    // of the undeformed positions, from `origin`
+    Aabb bounds;                    // bounds of the undeformed positions, from `origin`
     /// In the mesh's space. Not 0 where the whole primitive lies far from that space's origin, so that single precision
     /// keeps its shape. Made by finishScene(); 0 where a skin deforms it.
     glm::vec3 origin{0.0F};
@@ -152,7 +152,7 @@ struct Node {
     std::vector<glm::mat4> instances; // node_from_instance; empty: the node's mesh once at the node
     bool casts = true;                // per-object flags of the shadow system
     bool receives = true;
-    std::uint32_t groups = 1; // of casters, a bit each, that its mesh is in; 0: it must not cast, whatever draws maps
+    std::uint32_t groups = 1; // caster groups, a bit each, that its mesh is in; 0: it casts to no map
     float bias_m = 0.0F;      // maps have its mesh this much farther from lights, metres; finite
     /// The planes of the node's mesh, or of each of its instances, in their own space; for a skinned mesh in world
     /// space, where its vertices are. Children have their own. Nothing animates them.
@@ -215,7 +215,7 @@ struct Light {
     float radius_m = 0.0F;                    // spot and point: sphere radius of the emitter
     std::uint32_t cookie = kNone;             // spot: an image projected down its cone, or kNone
     bool casts_shadow = true;
-    std::uint32_t groups = 0xFFFFFFFFU; // of casters that it makes shadows of (Node::groups)
+    std::uint32_t groups = 0xFFFFFFFFU; // groups of casters that it makes shadows of (Node::groups)
     Body body = Body::none;
 };
 

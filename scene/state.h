@@ -26,7 +26,7 @@ struct Object {
     bool dynamic = false;                   // may move or deform over time
     ClipPlanes clip_planes = kNoClipPlanes; // in the space of its vertices
     glm::mat4 world_from_object{1.0F};      // identity for skinned objects: their vertices are in world space
-    Aabb bounds_ws;                         // of the part that the planes leave; empty where they leave nothing
+    Aabb bounds_ws;                         // bounds of the part that the planes leave; empty where they leave nothing
 };
 
 /// Vertices of a skinned or morphed primitive now, as long as the primitive's positions. Skinned: world space.
@@ -62,7 +62,7 @@ struct State {
     std::vector<PlacedLight> lights;
     std::vector<PlacedCamera> cameras;
     Environment environment; // sky and ambient now
-    Aabb bounds_ws;          // of all objects
+    Aabb bounds_ws;          // bounds of all objects
 
     // Indices that `advance` visits, ascending, and its working memory; made by `evaluate`.
     std::vector<std::uint32_t> dynamic_nodes;
@@ -70,7 +70,7 @@ struct State {
     std::vector<std::uint32_t> light_and_camera_nodes;
     std::vector<glm::mat4> joint_matrices;
     std::vector<glm::vec3> light_strengths; // one per light of the scene
-    Aabb static_bounds_ws;                  // of the objects that never move
+    Aabb static_bounds_ws;                  // bounds of the objects that never move
 };
 
 /// Builds the objects of `scene` and evaluates it at `time_s`. `animation` names the animation to play; empty plays

@@ -31,7 +31,7 @@ from ci_turn import ITEMS
 from sources import project_root
 
 DRAWN, RELEASE, LONG = "drawn under sanitizers", "release only", "long"
-MOST_BYTES = 100_000  # of a filter in the environment
+MOST_BYTES = 100_000  # bytes of a filter in the environment
 
 
 def cases_in(file: Path) -> dict[str, dict]:

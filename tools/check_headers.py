@@ -49,9 +49,9 @@ FOLDERS = [
 ]
 FLAGS = ["-std=c++20", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Wno-sign-conversion", "-Werror"]
 INCLUDE = re.compile(r'#include [<"]([^>"]+)[>"]')
-# What may stand before an include without a meaning for it.
+# Text that may stand before an include without a meaning for it.
 SILENT = re.compile(r"\s*(//.*|#pragma once|#(ifndef|define) GNOMON_\w+_H|#ifdef __cplusplus)?$")
-COST_OF_SET = 3.5  # of precompiling a set, where 1 is compiling it in a header
+COST_OF_SET = 3.5  # the cost of precompiling a set, where 1 is compiling it in a header
 
 
 def folders_of(path: str):

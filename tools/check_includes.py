@@ -14,7 +14,7 @@ from pathlib import Path
 
 from sources import project_files, project_root
 
-# What a header of the project is, by where it lies; the first match counts.
+# The group of a header of the project, by its folder; the first match counts.
 PROJECT_KINDS = [
     (r"^shaders/include/gnomon/shared/", "shared"),
     (r"^shaders/", "shader-lib"),
@@ -30,7 +30,7 @@ PROJECT_KINDS = [
     (r"^host/shaders/.*\.h$", "host-shared"),
     (r"^(files|scene|worlds|image|host|truth|lab|app)/", r"\1"),
 ]
-# What any other header is, by its name.
+# The group of any other header, by its name.
 FOREIGN_KINDS = [
     (r"^\w+_spirv\.h$|\.(vert|frag|comp)\.inc$", "spirv"),
     (r"^vulkan/", "vulkan-api"),
@@ -50,7 +50,7 @@ FOREIGN_KINDS = [
     (r"^embree\d/", "embree"),
     (r"^xxhash\.h$", "xxhash"),
     (r"^gd(font\w+)?\.h$", "gd"),
-    (r"^page_texts\.h$", "text"),  # of the files in app/pages, made by app/CMakeLists.txt
+    (r"^page_texts\.h$", "text"),  # the texts of the files in app/pages, made by app/CMakeLists.txt
     (r"^(fstream|filesystem|iostream|cstdio|stdio\.h|dirent\.h|fcntl\.h|unistd\.h|sys/\w+\.h)$", "std-file"),
     (r"^(dlfcn|signal|pthread|errno|spawn|poll)\.h$", "system"),
     (r"^([a-z0-9_]+|(stdint|stddef|math|string|stdlib|assert|float|limits)\.h)$", "std"),

@@ -199,7 +199,7 @@ def main() -> int:
     if options.programs:
         print(f"packages: {link_programs(packages, allowed[SITE], options.programs)} programs in {options.programs}")
     uses = list(used_by_scripts(root))
-    own: set[str] = set() # of the compiler, whose headers all sources include
+    own: set[str] = set() # the compiler's own, whose headers all sources include
     for build in options.builds:
         uses += used_by_build(build)
         own |= packages.closure(packages.owners_of(compiler_of(build)))

@@ -27,7 +27,7 @@ from unity_groups import LITERALS, MACRO, name_in
 
 INCLUDE = re.compile(r'^#include [<"]([^>"]+)[>"]', re.MULTILINE)
 COMMENT = re.compile(r" *//.*")
-# What may be declared in a header: a type or constant; a function that is called, and no member.
+# The things that a header may declare: a type or constant; a function that is called, and no member.
 USED = re.compile(r"(?<![.\w>])(?:k?[A-Z]\w*|[a-z]\w*(?=\())")
 CASE = re.compile(r"^(?:TYPED_)?TEST\w*\((\w+), *(\w+)", re.MULTILINE)
 # A variable or parameter, wherever it stands: the end of a type before it.
@@ -68,7 +68,7 @@ def that_may_lack(root: Path, build: Path, entries: dict[Path, dict]) -> list[Pa
     seen = {}
     for source, entry in entries.items():
         folders = (Path(word[2:]) for word in flags_of(entry) if word.startswith("-I"))
-        # What is generated for a folder is included by its own sources alone.
+        # Only the sources of a folder include files that are generated for it.
         own = tuple(folder for folder in folders if folder.is_relative_to(root) and not folder.is_relative_to(build))
         seen[source] = seen_by(source, own)
     around = defaultdict(set)
@@ -111,7 +111,7 @@ def main() -> int:
     options = parser.parse_args()
     root, build = options.root.resolve(), options.build.resolve()
     entries = {Path(entry["file"]): entry for entry in commands_of(build)}
-    # What is generated is of no target that compiles sources together.
+    # Generated files belong to no target that compiles sources together.
     entries = {source: entry for source, entry in sorted(entries.items()) if not source.is_relative_to(build)}
     if not entries:
         print("sources: found none", file=sys.stderr)

@@ -37,7 +37,7 @@ LIBRARIES = ("core/", "pack/", "vulkan/", "files/", "image/", "scene/", "worlds/
 class Item(NamedTuple):
     command: str
     parts: tuple = ()  # folders of the table of include rules: touched where they are, or what they may include
-    paths: tuple = ()  # what else touches it, by how its path begins
+    paths: tuple = ()  # other paths that touch it, by how they begin
     needs: str = ""      # a program without which it is skipped
     built: bool = False  # a label of tests in build/
     takes_turns: bool = True  # else it may take an hour, and only `make check-all` has it

@@ -13,7 +13,7 @@ import pathlib
 RECORD = pathlib.Path(__file__).resolve().parent.parent / "tests" / "compiled" / "recorded.json"
 FIGURES = ("VGPRs", "waves", "instructions")
 CHIPS = ("NAVI21", "VEGA10")
-# Of one light with one map, and of any number of lights and maps; sampling 1 is bilinear, flags are the filter's own.
+# One light with one map, and any number of lights and maps; sampling 1 is bilinear, flags are the filter's own.
 FILTERS = ("hard", "pcf", "pcss", "raymarch", "esm", "vsm", "evsm", "lvsm", "msm", "id", "depth_id")
 OTHERS = ("caster_orthographic.vert to D32", "caster_perspective.vert + caster_depth.frag to D32",
           "vertex of caster_perspective.vert + caster_depth.frag to D32", "depth_blocks.comp", "blur_moments_samples.comp",

@@ -5,7 +5,7 @@
 usage: determinism.py [--runs N] [--load N] [--only NAMES] [--locales C] GNOMON
 
 Runs each of ten commands N times (30), by turns on one core and on two and in the locales C and de_DE, while --load processes
-(as many as there are cores) keep the machine busy. What a command writes has to be equal in all runs, byte for byte, but for the times
+(as many as there are cores) keep the machine busy. What a command writes has to be equal in all runs, byte for byte, except the times
 that JSON tells. Such a locale is made by localedef in a temporary folder; where that cannot be, it is told as skipped. Prints a
 line for each command. Exit status 1 when two runs differ, 2 when a command fails.
 """
@@ -129,7 +129,7 @@ def main() -> int:
             print(f"skipped: localedef makes no {LOCALE} here")
         if len(cores) < 2:
             print("skipped: there is one core only")
-        if "metrics" in names:  # what it is asked about
+        if "metrics" in names:  # the part that it is asked about
             for given, kind in (("given", "hard"), ("given2", "pcf")):
                 subprocess.run([gnomon, "render", "planes", *SMALL, "--filter", kind, "--out", str(folder / f"{given}.png")],
                                capture_output=True, check=True)

@@ -18,7 +18,7 @@ from pathlib import Path
 
 TRAILING = re.compile(r"^(?!\s*//)(?P<code>\s*\S.*?[;,{\w)])\s*//(?![/!]) (?P<words>.*)$")
 WHOLE_LINE = re.compile(r"^(?P<indent>\s*)//(?![/!]) ?(?P<words>.*)$")
-# What is the same everywhere, and what is said there.
+# Members that mean the same everywhere, and the text that is said there.
 BY_ITSELF = [
     (re.compile(r"^\s*(?:virtual )?~\w+\(\)[^;{]*;"), "Frees all that it holds."),
     (re.compile(r"= delete;$"), "Not to be copied."),

@@ -87,7 +87,7 @@ def make_pages(root: Path, site: Path) -> None:
     said = [line for line in run.stderr.splitlines() if not line.startswith(("INFO", "  - "))]
     if run.returncode != 0 or any(said):
         raise Failed("\n".join(["mkdocs:", *said]))
-    # Who searches looks for what documents say; sources would come before them.
+    # Readers search for texts in documents; sources would come before them.
     index = site / "search/search_index.json"
     found = json.loads(index.read_text(encoding="utf-8"))
     found["docs"] = [one for one in found["docs"] if not one["location"].startswith(f"{SOURCES}/")]
@@ -101,7 +101,7 @@ class References(html.parser.HTMLParser):
         super().__init__()
         self.ids: set[str] = set()
         self.addresses: list[str] = []
-        self.loaded: list[str] = []  # what a browser asks for by itself
+        self.loaded: list[str] = []  # the files that a browser asks for by itself
         self.feed(text)
 
     def handle_starttag(self, tag, attrs):

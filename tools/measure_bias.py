@@ -35,7 +35,7 @@ VIEWS = [
 ]
 # Filter, truth.
 FILTERS = [("hard", "hard"), ("pcf", "hard"), ("vsm", "hard"), ("pcss", "area"), ("raymarch", "area")]
-CONSTANTS = [0.0001, 0.0003, 0.001, 0.003, 0.01, 0.03]  # of the view's scale
+CONSTANTS = [0.0001, 0.0003, 0.001, 0.003, 0.01, 0.03]  # shares of the view's scale
 STEPS = [0.5, 1, 2, 4]
 PARTS = ["bias.constant", "bias.slope", "bias.normal", "bias.receiver-plane"]
 MOST_RATIO, MOST_SHARE, MOST_MEAN = 1.1, 0.05, 0.002

@@ -8,7 +8,7 @@ GNOMON is the program, SHARED the folder that holds scenes/. The tables, of whic
 
 density   texels per pixel along the worse axis, 1st and 50th percentile, of every fit with single maps, cascades and sdsm,
           and of snap, and what that is of uniform's; all techniques have the same number of texels in all
-error     rmse against area truth of the sun's own size with hard and pcf, likewise, and the density beside it
+error     rmse against area truth of the sun's own size with hard and pcf, for the same fits and snap, and the density beside it
 
 A technique of four maps has maps of half the side. One that fell back says so. --only names scenes by words in their
 names. A scene that is not there is named on stderr and left out, and the exit status is then 1.

@@ -27,7 +27,7 @@ VIEWS = [
     ("planes, side", "planes", ["--camera", "side"]),
     ("spotlit, stage", "spotlit", ["--camera", "stage", "--light-size", "0.2"]),
 ]
-# What a light of each truth is: sun angles in degrees for area.
+# The light of each truth: sun angles in degrees for area.
 SUNS = ["0.53", "2"]
 CLASSES = ["edge", "acne", "detached", "bleeding", "terminator"]
 

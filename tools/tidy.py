@@ -50,7 +50,7 @@ def groups_that_compile(sources: list[str], flags: tuple[str, ...], build: Path)
                 break
             named = set(re.findall(r"^(\S+?):\d+:\d+: (?:fatal )?error", result.stderr, re.MULTILINE))
             out = [source for source in group if source in named] or group[1:]
-            # What clashes with none before it stays, else nothing would.
+            # The first source clashes with none before it and stays, else nothing would.
             out = out if len(out) < len(group) else group[1:]
             clashing += out
             group = [source for source in group if source not in out]

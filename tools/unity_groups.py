@@ -30,7 +30,7 @@ BROUGHT = re.compile(r"^using ([\w:]*::(\w+));", re.MULTILINE)
 INCLUDED = re.compile(r'^#include "([^"/]+)"', re.MULTILINE)
 # The same alias may stand twice.
 OTHER_NAME = re.compile(r"^namespace (\w+) =", re.MULTILINE)
-# What may name a thing declared elsewhere: a type, a constant or macro, a function that is called; members not.
+# Tokens that may name a thing declared elsewhere: a type, a constant or macro, a function that is called; members not.
 USED = re.compile(r"(?<![.\w>])(?:[A-Zk]\w*|[a-z]\w*(?=\())")
 # The name before a parameter list, an initialiser or the end.
 DECLARED = re.compile(r"([A-Za-z_]\w*)(?:\[[^\]]*\])*(?: = |[({;=]|$)")
@@ -53,7 +53,7 @@ def name_in(line: str):
 
 
 def names_of(text: str) -> set[str]:
-    """Names that this source alone means, but for those that it brings in from a namespace."""
+    """Names that this source alone means, without those that it brings in from a namespace."""
     names = set(MACRO.findall(text))
     unnamed = False
     for line in text.split("\n"):

@@ -17,7 +17,7 @@ struct CanopiesWorld {
         glm::vec3 min{0.0F};
         glm::vec3 max{0.0F};
     };
-    struct Rectangle { // of the ground
+    struct Rectangle { // a part of the ground
         float min_x = 0.0F;
         float min_z = 0.0F;
         float max_x = 0.0F;
@@ -29,7 +29,7 @@ struct CanopiesWorld {
         }
     };
     static constexpr float ground_half_size_m = 10.0F;
-    static constexpr int slats = 6; // of the pergola, the highest roof, side by side along x
+    static constexpr int slats = 6; // slats of the pergola, the highest roof, side by side along x
     static constexpr Box sail{{-6.4F, 7.0F, -4.4F}, {-0.6F, 7.1F, 2.2F}};
     static constexpr Box awning{{-2.2F, 2.5F, -1.1F}, {5.2F, 2.6F, 3.3F}}; // the lowest
     /// The way sunlight travels, before normalisation: a point at height h throws its shadow 0.02 h along +x and 0.12 h
@@ -63,7 +63,7 @@ struct CanopiesWorld {
     /// The depth of a point under the sun: metres along the sun's direction from the plane through the origin.
     [[nodiscard]] static constexpr float depthOf(const glm::vec3& point)
     {
-        constexpr float kLength = 1.0073728F; // of sun_direction
+        constexpr float kLength = 1.0073728F; // the length of sun_direction
         return (sun_direction.x * point.x + sun_direction.y * point.y + sun_direction.z * point.z) / kLength;
     }
 };

@@ -220,7 +220,7 @@ void writeReport(ReportFolder& folder, Json& json)
     json["report_files"] = {kReportPage, kReportResult};
     const std::string text = jsonText(json);
     folder.write(kReportResult, text);
-    folder.write(kReportPage, benchPage(Json::parse(text))); // of the text, all of it UTF-8
+    folder.write(kReportPage, benchPage(Json::parse(text))); // the text is all UTF-8
     folder.keep();
 }
 

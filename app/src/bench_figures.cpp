@@ -15,7 +15,7 @@
 namespace gnomon::app {
 namespace {
 
-constexpr std::size_t kLongestName = 1000; // of a technique with every setting that it can have
+constexpr std::size_t kLongestName = 1000; // the name of a technique with every setting that it can have
 constexpr const char* kNoLeast = "bytes_minimum";
 
 /// A text from the file made short and printable on one line.

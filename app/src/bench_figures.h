@@ -37,7 +37,7 @@ struct TechniqueFigures {
     std::string name;
     RelativeTime frame;
     RelativeTime plan;
-    Counts counts; // of the whole frame, less those that passes have
+    Counts counts; // counts of the whole frame, less those that passes have
     std::vector<PassFigures> passes;
 };
 

@@ -20,7 +20,7 @@ struct BenchedTechnique {
     lab::Timed reused;  // maps that still hold are kept
     /// Masks that still hold are kept too. Nothing along a path, where something moves.
     std::optional<lab::Timed> still;
-    lab::TexelDensity density; // of the first light; and so the next
+    lab::TexelDensity density; // the density of the first light, as is fit_efficiency
     double fit_efficiency = 0.0;
 };
 

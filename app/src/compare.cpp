@@ -204,7 +204,7 @@ void Comparison::matchAll()
 void Comparison::sweep(const SweepPlan& plan)
 {
     Progress progress("sweeping", plan.lines.size() * plan.values.size());
-    std::unique_ptr<const JudgedShot> other; // of the value that is swept over now, after the first
+    std::unique_ptr<const JudgedShot> other; // the shot of the value that is swept over now, after the first
     const auto judged_at = [&](std::size_t value) -> const Judged& {
         if (value == 0 || !plan.remakes_shot) {
             return result_.judged;

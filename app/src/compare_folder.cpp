@@ -251,7 +251,7 @@ void writeReport(ReportFolder& folder, const CompareResult& result, Json& json, 
     json["report_files"] = folder.listed();
     const std::string text = jsonText(json);
     folder.write(kReportResult, text);
-    folder.write(kReportPage, comparePage(Json::parse(text), pagePictures(result))); // of the text, all of it UTF-8
+    folder.write(kReportPage, comparePage(Json::parse(text), pagePictures(result))); // the text is all UTF-8
     folder.keep();
 }
 

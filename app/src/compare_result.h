@@ -42,7 +42,7 @@ struct PathResult {
     std::string name; // or file
     FrameRange frames;
     std::vector<std::uint32_t> shown; // first, middle and last frame
-    std::vector<ImageF> truths;       // of those; none without a report
+    std::vector<ImageF> truths;       // truths of those frames; none without a report
 };
 
 struct ComparedTechnique {
@@ -59,13 +59,13 @@ struct CompareResult {
     std::string device;
     std::string driver;
     std::string scene_hash;
-    Judged judged;                        // of a sweep: at its first value, and so the next two
-    std::optional<double> standard_error; // of the truth; absent when no pixel counts
+    Judged judged;                        // in a sweep these three are at its first value
+    std::optional<double> standard_error; // the truth's standard error; absent when no pixel counts
     lab::PixelCounts pixels;
     lab::Timed baseline; // without shadows
     std::uint64_t baseline_bytes = 0;
     std::vector<ComparedTechnique> techniques; // best first
-    std::vector<Shades> shades;                // of the frame, or of PathResult::shown; none without a report
+    std::vector<Shades> shades;                // shades of the frame, or of PathResult::shown; none without a report
     std::optional<SweepResult> sweep;          // then there are no techniques
     std::optional<PathResult> path;            // then `judged` is of its first frame and has no truth
 

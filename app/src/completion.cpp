@@ -26,8 +26,8 @@ namespace {
 /// Collects the candidates that have a given start.
 struct Answer {
     Completion completion;
-    std::string before; // what stands in the word before the part that is completed: "pcf+", "--filter="
-    std::string start;  // of the part that is completed
+    std::string before; // the text in the word before the part that is completed: "pcf+", "--filter="
+    std::string start;  // the start of the part that is completed
 
     void add(std::string_view word, std::string_view description = {})
     {

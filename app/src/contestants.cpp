@@ -11,24 +11,28 @@
 namespace gnomon::app {
 namespace {
 
-// Not volumes, which many a scene's casters are too open for.
-constexpr std::string_view kAll[] = {"hard",
-                                     "pcf+pcf.kernel=2x2",
-                                     "pcf+pcf.kernel=3x3",
-                                     "pcf+pcf.kernel=5x5",
-                                     "pcf+pcf.kernel=7x7",
-                                     "pcf+pcf.kernel=poisson",
-                                     "pcf+pcf.kernel=vogel",
-                                     "pcss",
-                                     "raymarch",
-                                     "vsm",
-                                     "lvsm",
-                                     "esm",
-                                     "evsm",
-                                     "msm",
-                                     "id",
-                                     "depth-id",
-                                     "smoothies"};
+constexpr std::string_view kPcfKernels[] = {"2x2", "3x3", "5x5", "7x7", "poisson", "vogel"};
+
+/// Every filter, `pcf` by each kernel that is not a variant of another. Not `auto`, which is one of them, and not
+/// volumes, which many a scene's casters are too open for.
+std::vector<std::string> allTexts()
+{
+    std::vector<std::string> texts;
+    for (const ChoiceValue& row : choiceValues()) {
+        const auto filter = static_cast<Filter>(row.value);
+        if (row.choice != "filter" || filter == Filter::automatic || filter == Filter::volumes) {
+            continue;
+        }
+        if (filter != Filter::pcf) {
+            texts.emplace_back(row.name);
+            continue;
+        }
+        for (const std::string_view kernel : kPcfKernels) {
+            texts.push_back(fmt::format("pcf+pcf.kernel={}", kernel));
+        }
+    }
+    return texts;
+}
 
 bool isAll(const Settings& settings)
 {
@@ -39,14 +43,15 @@ bool isAll(const Settings& settings)
 std::vector<std::string> allOf(const Settings& settings)
 {
     std::vector<std::string> texts;
-    for (const std::string_view text : kAll) {
-        const auto filter = static_cast<Filter>(findChoice("filter", text.substr(0, text.find('+')))->value);
+    for (const std::string& text : allTexts()) {
+        const std::string name = text.substr(0, text.find('+'));
+        const auto filter = static_cast<Filter>(findChoice("filter", name)->value);
         const bool stores = !settings.shadow.format || !refusal(filter, *settings.shadow.format);
         ShadowOptions wanted = settings.shadow;
         wanted.technique.filter = filter;
         const bool is_particular = filterTraits(filter)->ids || filter == Filter::smoothies;
         if (stores && (!is_particular || resolve(wanted))) {
-            texts.emplace_back(text);
+            texts.push_back(text);
         }
     }
     return texts;

@@ -17,7 +17,7 @@
 namespace gnomon::app {
 namespace {
 
-constexpr double kFilled = 0.92; // of the picture's width or height, by what is framed
+constexpr double kFilled = 0.92; // share of the picture's width or height that framed things fill
 
 /// Unit, from the scene; azimuth 0 is +z, where a glTF model looks, and grows towards +x.
 glm::dvec3 towards(double azimuth_rad, double elevation_rad)
@@ -78,7 +78,7 @@ public:
         }
         const glm::dvec3& way = shot.lights.front().caster.direction_ws;
         const glm::dvec2 along(way.x, way.z);
-        constexpr double kLongest = 1.5; // of a low sun's shadow, in heights
+        constexpr double kLongest = 1.5; // a low sun's longest shadow, in heights
         const double slope = glm::length(along) / -way.y;
         per_metre_ = slope > 0.0 ? along / glm::length(along) * std::min(slope, kLongest) : glm::dvec2(0.0);
         ground_y_ = static_cast<double>(model.min.y);

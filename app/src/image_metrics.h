@@ -14,7 +14,7 @@ namespace gnomon::app {
 [[nodiscard]] bool isColour(const ImageF& image);
 
 struct ImageMetrics {
-    std::string_view interpretation; // what the values were taken for
+    std::string_view interpretation; // the meaning that the values were taken to have
     std::uint32_t channels = 0;      // that were compared: 1 or 3
     lab::ErrorNumbers error;         // over all values of all channels
     double ssim = 0.0;

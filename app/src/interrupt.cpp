@@ -7,7 +7,7 @@
 namespace gnomon::app {
 namespace {
 
-constexpr int kShellBase = 128; // what shells add to the number of a signal that ended a program
+constexpr int kShellBase = 128; // shells add it to the number of a signal that ended a program
 
 std::atomic<int> first_signal{0};
 std::atomic<bool> flag{false};

@@ -56,7 +56,7 @@ std::string storageText()
 std::string settingsText()
 {
     std::string text =
-        "Settings (options of their own as --KEY; all by --set KEY=VALUE and, but for outputs, in presets):\n";
+        "Settings (options of their own as --KEY; all by --set KEY=VALUE, and in presets all except outputs):\n";
     for (const Setting& setting : settingTable()) {
         text += settingLine(setting);
     }

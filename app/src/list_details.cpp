@@ -18,7 +18,7 @@ namespace gnomon::app {
 namespace {
 
 constexpr std::size_t kFacts = 15; // the column of facts
-constexpr std::size_t kNames = 20; // of what settings and presets are
+constexpr std::size_t kNames = 20; // the column where settings and presets are explained
 
 std::string fact(std::string_view name, std::string_view text)
 {

@@ -103,7 +103,7 @@ Json worldsNamed(std::string_view name)
 }
 
 struct JsonPart {
-    std::string_view section; // what the section is called on the command line
+    std::string_view section; // the section's name on the command line
     const char* key;
     Json (*rows)(std::string_view name);
 };

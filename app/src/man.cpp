@@ -109,9 +109,9 @@ std::string optionsText()
     text += entry("--set KEY=VALUE", "Any setting, of those below too. Given again and again.");
     text += entry("--preset NAME|FILE", "A JSON object of settings, built in or in a file. Options win over presets.");
     text += entry("-h, --help", "The options of a subcommand.");
-    text +=
-        heading("SETTINGS") + paragraph("These have no option of their own; --set, presets and, but for those of the "
-                                        "picture, techniques take them.");
+    text += heading("SETTINGS") +
+            paragraph("These have no option of their own. --set and presets take them; so do techniques, "
+                      "except those of the picture.");
     for (const Setting& setting : settingTable()) {
         if (!setting.own_option) {
             text +=
@@ -188,7 +188,7 @@ std::string aroundText()
         {"gnomon bench rts --technique pcf+cascades", "What each pass of a frame takes."},
         {"gnomon gpus", "This machine's GPUs: what each can, and what is left out on it."},
         {"gnomon list msm", "A value's settings, rules and source."},
-        {"source <(gnomon completion bash)", "Completion for this shell; gnomon completion zsh and fish likewise."},
+        {"source <(gnomon completion bash)", "Completion for this shell; zsh and fish have theirs too."},
     }};
     for (const auto& [command, what] : kExamples) {
         text += entry(command, what);

@@ -153,7 +153,7 @@ void drawPlan(const Settings& settings, const Shot& shot, const PlannedFrames& p
     const std::string svg = lab::planSvg(planned.frame(), plan, static_cast<std::uint32_t>(light), caption);
     writeResult(settings.draw, svg);
     if (!settings.json.empty()) {
-        return; // what is on standard output is JSON alone
+        return; // standard output holds JSON alone
     }
     writeStdout(fmt::format("{}: the maps of light {} of {}, {}\n", settings.draw, shaded.name, settings.scene,
                             describeTechnique(settings)));

@@ -246,7 +246,7 @@ void applyJson(Settings& settings, const std::string& name, std::string_view tex
         throw UsageError(fmt::format("--preset: {} is not a JSON object of settings", name));
     }
     if (json.contains("scene")) {
-        settings.scene_hash.clear(); // of an earlier preset's scene
+        settings.scene_hash.clear(); // it was the hash of an earlier preset's scene
     }
     // An earlier preset's camera gives way; a preset that has both is wrong by itself.
     if (json.contains("camera") != (json.contains("eye") || json.contains("target"))) {

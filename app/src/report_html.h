@@ -33,12 +33,12 @@ struct TableHtml {
 [[nodiscard]] std::string dataUri(std::string_view png);
 
 struct Page {
-    std::string kind;  // what pages/page.js is to make of it: "compare", "sweep", "scenes" or "bench"
+    std::string kind;  // the kind of page that pages/page.js makes: "compare", "sweep", "scenes" or "bench"
     std::string title; // and first heading
     std::string lead;  // one line below it
     std::string body;  // HTML: sections
-    Json data;         // what the scripts read
-    Json pictures;     // what they show; null: nothing
+    Json data;         // the data that the scripts read
+    Json pictures;     // the pictures that the scripts show; null: nothing
 };
 /// The whole file, in UTF-8. The scripts, the style and the charts' library are in it.
 [[nodiscard]] std::string pageHtml(const Page& page);

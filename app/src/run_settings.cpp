@@ -250,7 +250,7 @@ const std::vector<Setting>& rows()
          .doc = "how many seconds of the path pass in one", .subcommands = kMoving, .own_option = false, .used = [](const Settings& s) { return !s.path.empty(); }, .used_when = "--path",
          .apply = [](Settings& s, const Value& v) { s.path_speed = v.real; }},
         {.key = "converge", .group = Group::time, .type = integer, .form = "N", .unit = "frames", .default_text = "1", .min = 1, .max = 65536,
-         .doc = "draw so many at rest, of which the last counts", .subcommands = kRender | kCompare, .used = convergesAtRest,
+         .doc = "draw this many at rest; the last counts", .subcommands = kRender | kCompare, .used = convergesAtRest,
          .used_when = "soften converge and without --frames", .apply = [](Settings& s, const Value& v) { s.converge = static_cast<std::uint32_t>(v.integer); }},
         {.key = "animation", .group = Group::time, .type = text, .form = "NAME", .doc = "which animation of the file plays; else the first",
          .apply = [](Settings& s, const Value& v) { s.animation = v.text; }},

@@ -29,7 +29,7 @@ namespace {
 constexpr float kSunLux = 3.2F;
 constexpr double kAimLux = 6.0;
 const glm::vec3 kWarmWhite{1.0F, 0.95F, 0.87F};
-constexpr double kInnerShare = 0.8; // of a spot's cone that is fully lit
+constexpr double kInnerShare = 0.8; // the share of a spot's cone that is fully lit
 
 /// Any vector that is perpendicular to `axis`, the same one every time.
 glm::dvec3 perpendicular(const glm::dvec3& axis)
@@ -190,7 +190,7 @@ double momentOf(const Shot& shot, const Settings& settings, std::uint32_t frame)
 
 double focusOf(const Shot& shot)
 {
-    constexpr double kNearest = 0.01; // of the scene's diagonal
+    constexpr double kNearest = 0.01; // share of the scene's diagonal
     const glm::dvec3 look = shot.eye.target_ws - shot.eye.position_ws;
     if (shot.has_target) {
         return glm::length(look);

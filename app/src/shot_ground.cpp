@@ -50,8 +50,8 @@ public:
     }
     [[nodiscard]] double flooredShare() const
     {
-        constexpr double kSlab = 0.12; // of the height
-        constexpr double kLow = 0.3;   // of the height; above it is a roof
+        constexpr double kSlab = 0.12; // share of the height
+        constexpr double kLow = 0.3;   // share of the height; above it is a roof
         int seen = 0;
         int floored = 0;
         for (std::size_t i = 0; i < lowest_.size(); ++i) {
@@ -114,7 +114,7 @@ void addObject(Heights& heights, const scene::Scene& scene, const scene::State& 
     }
 }
 
-constexpr double kHasFloor = 0.7; // of what is seen from above
+constexpr double kHasFloor = 0.7; // share of all that is seen from above
 
 } // namespace
 
@@ -132,7 +132,7 @@ double flooredShare(const scene::Scene& scene, const scene::State& state, int up
 bool isBottomless(const scene::Scene& scene, const scene::State& state)
 {
     const glm::vec3 extent = state.bounds_ws.extent();
-    constexpr float kNarrow = 0.5F; // of the height: a plinth, or a wall's ledge
+    constexpr float kNarrow = 0.5F; // share of the height: a plinth, or a wall's ledge
     return std::min(extent.x, extent.z) < kNarrow * extent.y || flooredShare(scene, state, 1) < kHasFloor;
 }
 
@@ -153,7 +153,7 @@ void standUp(scene::Scene& scene)
     const glm::quat turn = glm::angleAxis(-glm::half_pi<float>(), glm::vec3(1.0F, 0.0F, 0.0F));
     for (scene::Node& node : scene.nodes) {
         node.parent = node.parent == scene::kNone ? 0 : node.parent + 1;
-        for (glm::vec4& plane : node.clip_planes) { // of a skinned mesh they are the scene's
+        for (glm::vec4& plane : node.clip_planes) { // a skinned mesh has them in the scene's space
             plane = node.skin != scene::kNone ? glm::vec4(turn * glm::vec3(plane), plane.w) : plane;
         }
     }
@@ -178,7 +178,7 @@ scene::Primitive disc(const glm::vec3& centre, float radius)
 {
     constexpr int kRings = 24;
     constexpr int kSpokes = 96;
-    constexpr float kWhole = 0.3F; // of the radius
+    constexpr float kWhole = 0.3F; // share of the radius
     scene::Primitive disc;
     const auto add = [&](const glm::vec3& place, float alpha) {
         disc.positions.push_back(place);
@@ -223,7 +223,7 @@ float radiusUnder(const Aabb& model)
 void addGround(scene::Scene& scene, const Aabb& model_ws)
 {
     const glm::vec3 extent = model_ws.extent();
-    constexpr float kBelow = 2e-4F; // of the model's size, so that what lies on it is seen and not the ground
+    constexpr float kBelow = 2e-4F; // share of the model's size, so that things on it are seen and not the ground
     glm::vec3 centre = model_ws.centre();
     centre.y = model_ws.min.y - kBelow * std::max({extent.x, extent.y, extent.z});
     scene::Primitive primitive = disc(centre, radiusUnder(model_ws));

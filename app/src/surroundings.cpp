@@ -9,7 +9,7 @@
 namespace gnomon::app {
 namespace {
 
-constexpr float kSmall = 0.3F; // of the surroundings' diagonal, by eye
+constexpr float kSmall = 0.3F; // share of the surroundings' diagonal, by eye
 
 float sizeOf(const Aabb& box)
 {
@@ -57,7 +57,7 @@ std::vector<const scene::Object*> withoutSurroundings(const scene::Scene& scene,
         around.add(scene, *objects[i]);
         const Group& others = from[i + 1];
         const float size = sizeOf(others.bounds_ws);
-        const glm::vec3 above(0.0F, size, 0.0F); // what stands on a ground, or hangs below a roof, is amid it
+        const glm::vec3 above(0.0F, size, 0.0F); // an object on a ground, or hung below a roof, is amid it
         const Aabb wide{around.bounds_ws.min - above, around.bounds_ws.max + above};
         const bool small = size > 0.0F && size < kSmall * sizeOf(objects[i]->bounds_ws);
         if (small && others.triangles > around.triangles && holds(wide, others.bounds_ws.centre())) {

@@ -119,7 +119,7 @@ SweepResult runSweep(const host::SceneOnGpu& scene, SweepPlan plan, const Judged
     result.points.resize(result.plan.lines.size());
     for (std::size_t value = 0; value < result.plan.values.size(); ++value) {
         const Judged& judged = judged_at(value);
-        std::optional<host::SceneOnGpu> other; // of a shot that the value has made anew
+        std::optional<host::SceneOnGpu> other; // the scene of a shot that the value has made anew
         if (value > 0 && result.plan.remakes_shot) {
             other.emplace(scene.gpu(), *judged.subject.scene, *judged.subject.state);
         }

@@ -27,7 +27,7 @@ struct SweepPlan {
     bool remakes_shot = false;  // no setting of a technique: camera, light, truth and time follow
     std::vector<double> values; // ascending or descending, as asked for
     std::vector<Line> lines;
-    bool ends_automatic_bias = false;  // of a technique that had it
+    bool ends_automatic_bias = false;  // sweeping turns off a technique's automatic bias
     std::vector<std::string> left_out; // techniques on which the setting has no effect, a sentence each
 };
 /// `sweep` is as --sweep makes it: a number of compare's, two steps or more. Whole numbers are rounded (to multiples,
@@ -48,7 +48,7 @@ struct SweepResult {
     /// The same for all techniques.
     struct Place {
         TruthFacts truth;
-        std::optional<double> standard_error; // of the truth; absent when no pixel counts
+        std::optional<double> standard_error; // the truth's standard error; absent when no pixel counts
         lab::PixelCounts pixels;
     };
     SweepPlan plan;

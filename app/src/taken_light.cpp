@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kPoints = 256;    // spread over what receives, by area
 constexpr std::size_t kDirections = 96; // a lampshade's opening is wider than one of these
 constexpr std::size_t kMostTriangles = 100'000;
-constexpr std::int64_t kMostTests = 20'000'000; // of a ray against a triangle: a tenth of a second
+constexpr std::int64_t kMostTests = 20'000'000; // tests of a ray against a triangle: a tenth of a second
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Triangle = std::array<glm::dvec3, 3>;

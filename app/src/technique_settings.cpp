@@ -100,7 +100,7 @@ Setting biasSetting()
     setting.default_text = "auto";
     setting.doc = "auto, none or constant=M,slope=S,normal=T,receiver-plane=0|1";
     setting.used = [](const Settings& s) {
-        return findOption("bias.constant")->used(s.shadow); // what goes for one of its parts goes for all
+        return findOption("bias.constant")->used(s.shadow); // a rule for one of its parts holds for all
     };
     setting.used_when = findOption("bias.constant")->used_when;
     setting.apply = applyBias;

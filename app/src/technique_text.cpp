@@ -22,7 +22,7 @@ constexpr std::string_view kSmoothies = "smoothies"; // a filter, and a way to s
 const ChoiceValue* findTechniqueValue(std::string_view name)
 {
     for (const ChoiceValue& row : choiceValues()) {
-        if (row.choice != "light" && row.name == name) { // of smoothies the filter
+        if (row.choice != "light" && row.name == name) { // smoothies means the filter
             return &row;
         }
     }

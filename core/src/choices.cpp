@@ -158,8 +158,9 @@ constexpr std::array kEsmFormats{MapFormat::r32f, MapFormat::r16f};
 constexpr std::array kEvsmFormats{MapFormat::rgba32f, MapFormat::rgba16f, MapFormat::rg32f, MapFormat::rg16f};
 constexpr std::array kNoFormats{MapFormat::d32f}; // for a filter without maps, which stores nothing
 constexpr std::array kMsmFormats{MapFormat::rgba16, MapFormat::rgba32f};
-constexpr std::string_view kOneDepth = "this filter compares one depth per texel; it stores d32f, d24, r32f or d16, or two "
-                                       "maps a texel: rg16, rg16f or rgba8";
+constexpr std::string_view kOneDepth =
+    "this filter compares one depth per texel; it stores d32f, d24, r32f or d16, or two "
+    "maps a texel: rg16, rg16f or rgba8";
 constexpr std::array kFilters{
     FilterTraits{.filter = Filter::hard,
                  .formats = kDepthFormats,
@@ -203,8 +204,9 @@ constexpr std::array kFilters{
                  .filterable = true},
     FilterTraits{.filter = Filter::evsm,
                  .formats = kEvsmFormats,
-                 .formats_reason = "evsm stores moments of exponentials, which only a float holds: rgba32f, rgba16f, or "
-                                   "with the positive warp alone rg32f, rg16f",
+                 .formats_reason =
+                     "evsm stores moments of exponentials, which only a float holds: rgba32f, rgba16f, or "
+                     "with the positive warp alone rg32f, rg16f",
                  .clamps_near = true,
                  .filterable = true},
     FilterTraits{.filter = Filter::msm,
@@ -231,8 +233,9 @@ constexpr std::array kFilters{
                  .has_maps = false},
     FilterTraits{.filter = Filter::smoothies,
                  .formats = kRayFormats,
-                 .formats_reason = "smoothies compares one depth per texel, in a map that has its texels for itself: d32f, "
-                                   "r32f or d16",
+                 .formats_reason =
+                     "smoothies compares one depth per texel, in a map that has its texels for itself: d32f, "
+                     "r32f or d16",
                  .depth_only = true,
                  .weighs_frames = true},
 };
@@ -404,7 +407,7 @@ std::optional<std::string_view> refusal(Filter filter, MapFormat format)
         return kOneDepth;
     }
     return std::ranges::find(traits->formats, format) != traits->formats.end() ? std::nullopt
-                                                                              : std::optional(traits->formats_reason);
+                                                                               : std::optional(traits->formats_reason);
 }
 
 } // namespace gnomon

@@ -11,8 +11,8 @@ namespace gnomon {
 
 class FrameMemory {
 public:
-    /// Is all that a plan depends on as in the last frame that was noted? But for Frame::time_s, which only suns that
-    /// move in steps go by.
+    /// Is all that a plan depends on as in the last frame that was noted? Frame::time_s does not count here: only suns
+    /// that move in steps go by it.
     [[nodiscard]] bool holds(const Frame& frame) const;
     /// Does the frame's camera stand where it stood in the last frame that was noted? Not where there was none.
     [[nodiscard]] bool sees(const Frame& frame) const;

@@ -16,7 +16,7 @@
 namespace gnomon {
 namespace {
 
-/// No map shows less: tangents, or so many times what coordinates are padded by.
+/// No map shows less: kLeastTangent as tangents, else kLeastPads times the length that coordinates are padded by.
 constexpr double kLeastTangent = 1e-4;
 constexpr double kLeastPads = 32.0;
 
@@ -50,7 +50,7 @@ FrustumPlanner::Lie FrustumPlanner::lieOf(const FrustumInput& input)
         lie.space.up_ws = input.slice.up_ws;
         lie.space.right_ws = glm::cross(lie.space.forward_ws, input.slice.up_ws);
     }
-    if (recipe.layersWorld() && recipe.options.moments.layer_axis == LayerAxis::height) {
+    if (recipe.layersWorld() && recipe.options().moments.layer_axis == LayerAxis::height) {
         lie.space.depth_ws = heightDepth(lie.space);
     } else if (recipe.levelsDepth()) {
         lie.space.depth_ws = levelDepth(lie.space, *input.frame.objects, input.levellers);
@@ -209,7 +209,7 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     view.projection.parallel = !space.perspective;
     view.projection.orthographic = !space.perspective && !warp.warped();
     // Between a placed light and its near distance nothing casts, so there the rasteriser cuts.
-    view.projection.clamp_near = input.frame.clamps_depth && recipe.filter->clamps_near &&
+    view.projection.clamp_near = input.frame.clamps_depth && recipe.resolved.traits().clamps_near &&
                                  !recipe.resolved.integratesLight() && !space.perspective;
     view.fit = fit;
     view.projection.texel_xy_m = fit.coarsest_texel;
@@ -224,7 +224,7 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
         return kTooFarApart;
     }
     if (recipe.layersWorld()) {
-        placeLayers(input.layers, recipe.options.moments.layer_axis, space.forward_ws, view);
+        placeLayers(input.layers, recipe.options().moments.layer_axis, space.forward_ws, view);
     }
     return warp.outcome;
 }
@@ -303,7 +303,7 @@ DepthRange FrustumPlanner::rangeOf(const FrustumInput& input, const LightSpace& 
     const CameraView& camera = input.camera;
     const glm::dvec3 scene = glm::dvec3(camera.scene_ws.max) - glm::dvec3(camera.scene_ws.min);
     // Where casters are clamped there is room for what clamping needs; averages lose by a range that is not theirs.
-    const bool needs_range = !view.projection.clamp_near && !recipe.filter->filterable;
+    const bool needs_range = !view.projection.clamp_near && !recipe.resolved.traits().filterable;
     const double least_m = needs_range ? kLeastRange * std::max({scene.x, scene.y, scene.z}) : 0.0;
     if (recipe.holdsScene()) {
         const SceneDepths depths = depthsOfScene(space, input.scene_ws, least_m);

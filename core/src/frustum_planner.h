@@ -53,8 +53,8 @@ public:
     /// no_receiver or no_caster. volume_casters.cpp.
     Outcome listCasters(const FrustumInput& input, std::vector<std::uint32_t>& casters);
 
-    /// Appends what the slice of `input` comes to with fit tsm in so many affine segments (fit/tsm_segments.h), near
-    /// ones first; the slice itself where nothing of it is seen. Neighbours blend over that share of the nearer one.
+    /// Appends the slice of `input` as fit tsm divides it into `count` affine segments (fit/tsm_segments.h), near ones
+    /// first; the slice itself where nothing of it is seen. Neighbours blend over the share `blend` of the nearer one.
     void divideTsm(const FrustumInput& input, std::uint32_t count, double blend, std::vector<Slice>& out);
 
     /// With what error the slice's map will be read, found before it is drawn. With fit auto `strength` is that of the

@@ -157,7 +157,7 @@ void shareInPlanes(const Light& light, const ObjectSet& objects, const IdHandout
         });
 }
 
-/// The ids of one object: so many, from `first` on.
+/// The ids of one object: `count` of them, from `first` on.
 struct IdRange {
     std::uint32_t first = 0;
     std::uint32_t count = 1;

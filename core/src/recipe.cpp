@@ -40,11 +40,10 @@ ResolvedOptions usable(const Resolution& resolution)
 
 } // namespace
 
-Recipe::Recipe(const ShadowOptions& given)
-    : asked(given), resolution(resolve(given)), refusal_reason(lasting(resolution.refusal)),
-      resolved(usable(resolution)), options(resolved.asked()), partition(partitionTraits(options.technique.partition)),
-      fit(fitFunction(options.technique.fit)), motion(motionTraits(options.technique.motion)),
-      filter(filterTraits(options.technique.filter))
+Recipe::Recipe(const ShadowOptions& given, const Resolution& resolution)
+    : asked(given), refused(lasting(resolution.refusal)), resolved(usable(resolution)),
+      partition(partitionTraits(options().technique.partition)), fit(fitFunction(options().technique.fit)),
+      motion(motionTraits(options().technique.motion))
 {
 }
 
@@ -56,8 +55,8 @@ Outcome Recipe::check(const Light& light) const
     if (const auto reason = refusal(layoutOf(light), asked)) {
         return {OutcomeKind::refused, *reason};
     }
-    if (!resolution) {
-        return {OutcomeKind::refused, refusal_reason};
+    if (!refused.empty()) {
+        return {OutcomeKind::refused, refused};
     }
     return checkLight(light);
 }
@@ -81,7 +80,7 @@ MapWish Recipe::wishOf(const Light& light, std::uint32_t index, const PartitionT
     wish.side = light.map_size == 0 ? largest : std::clamp(light.map_size, kSmallestMap, largest);
     wish.count = mapsOf(divided);
     wish.stacked = divided.maps == 0; // cascades may be drawn by one pass
-    if (choosesPartition() || !options.map_size) {
+    if (choosesPartition() || !options().map_size) {
         wish.side = sideOfShared(wish.side, wish.count);
     }
     if (light.map_size == 0) {
@@ -91,8 +90,8 @@ MapWish Recipe::wishOf(const Light& light, std::uint32_t index, const PartitionT
     wish.shares_texels = resolved.paired_maps();
     // A map that the GPU fits changes in each frame. A midpoint map needs all casters at once.
     wish.keeps_still =
-        !divided.fits_on_gpu && options.faces != CasterFaces::midpoint &&
-        (options.keep_still == KeepStill::always || (options.keep_still == KeepStill::automatic && steps(light)));
+        !divided.fits_on_gpu && options().faces != CasterFaces::midpoint &&
+        (options().keep_still == KeepStill::always || (options().keep_still == KeepStill::automatic && steps(light)));
     return wish;
 }
 
@@ -101,12 +100,12 @@ std::uint32_t Recipe::mapsOf(const PartitionTraits& divided) const
     if (divided.maps != 0) {
         return std::max(divided.maps, resolved.segments());
     }
-    return divided.fits_on_gpu && choosesPartition() ? 1 : options.cascades.count; // one, as takesDepth() has it
+    return divided.fits_on_gpu && choosesPartition() ? 1 : options().cascades.count; // one, as takesDepth() has it
 }
 
 bool Recipe::levelsDepth() const
 {
-    return options.level_depth && filter != nullptr && filter->filterable && !layersWorld();
+    return options().level_depth && resolved.filterable() && !layersWorld();
 }
 
 } // namespace gnomon

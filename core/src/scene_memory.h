@@ -30,7 +30,7 @@ private:
 };
 
 /// Layers of height by where objects gather: Lloyd's relaxation over the heights of the objects' middles, an object
-/// counting once, however large it is. A layer reaches from the lowest to the highest that its objects do, but for a
+/// counting once, however large it is. A layer reaches from the lowest to the highest that its objects do, without a
 /// fiftieth of them at each end: a peak would make a layer of ground several times as deep. Empty without objects.
 [[nodiscard]] std::vector<WorldLayer> findLayers(const ObjectSet& objects, std::uint32_t count);
 

@@ -28,7 +28,7 @@ void placeLayers(std::span<const WorldLayer> layers, LayerAxis axis, const glm::
     const bool by_height = axis == LayerAxis::height;
     const auto count = static_cast<double>(layers.size());
     const bool is_level = row.x == 0.0 && row.z == 0.0;
-    // d' at so many metres.
+    // d' at `metres`.
     const auto depthAt = [&](double metres) {
         if (!view.projection.parallel) {
             return (metres - view.projection.metric.near_m) /

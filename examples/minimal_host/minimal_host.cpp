@@ -110,7 +110,7 @@ int visibilityAt(const Scene& scene, const std::uint8_t* mask, std::size_t light
     const glm::dvec4 clip = scene.frame.camera.clip_from_world * glm::dvec4(p, 1.0);
     const auto x = static_cast<std::size_t>((clip.x / clip.w * 0.5 + 0.5) * kSize.width);
     const auto y = static_cast<std::size_t>((clip.y / clip.w * 0.5 + 0.5) * kSize.height);
-    return mask[(y * kSize.width + x) * 4 + light];
+    return mask[(y * kSize.width + x) * 4 + light]; // two lights: LightPlan::mask_layer 0, mask_channel as they come
 }
 
 // Points on the ground that boxes hide from a light, and points that they do not.

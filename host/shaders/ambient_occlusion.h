@@ -18,8 +18,8 @@ using glm::acos, glm::atan;
 GN_CONST real kOcclusionHalfPi = real(1.57079632679489662);
 GN_CONST real kOcclusionWhole = real(0.5);      // share of the radius within which an occluder counts in full
 GN_CONST real kOcclusionThickness = real(0.05); // how fast a horizon sinks again behind a thin thing, per step
-GN_CONST int kOcclusionSlices = 2;              // of a pixel; at right angles
-GN_CONST int kOcclusionSteps = 8;               // of a slice, to each side
+GN_CONST int kOcclusionSlices = 2;              // slices of a pixel, at right angles
+GN_CONST int kOcclusionSteps = 8;               // steps of a slice, to each side
 
 // Which way the first slice of a pixel goes (x, in quarter turns) and how far its steps are shifted (y, in steps).
 // Every 4 x 4 pixels have 16 directions, so a mean over as many has no pattern left.

@@ -11,9 +11,9 @@
 #include "gnomon/shared/portability.h"
 GN_BEGIN
 
-GN_CONST real kBloomCentre = real(0.5);   // of the box around the middle
-GN_CONST real kBloomCorner = real(0.125); // of each of the four boxes two texels apart
-GN_CONST real kBloomMost = real(60000.0); // what half floats still hold
+GN_CONST real kBloomCentre = real(0.5);   // weight of the box around the middle
+GN_CONST real kBloomCorner = real(0.125); // weight of each of the four boxes two texels apart
+GN_CONST real kBloomMost = real(60000.0); // brightest value that counts; half floats hold it
 
 // How much of a brightness lies above the threshold. A parabola joins "nothing" below the knee to "all that exceeds"
 // above it, with the slopes of both: (b - (t - h))^2 / 4h between t - h and t + h.

@@ -6,7 +6,7 @@
 #define HOST_BY_VERTEX_GLSL
 
 layout(constant_id = 20) const bool kInSoftware = false;
-layout(constant_id = 21) const bool kDrawsSky = false; // of screen.vert
+layout(constant_id = 21) const bool kDrawsSky = false; // for screen.vert
 
 // The numbers from scene.vert, from location 5 on.
 const int kSceneRayX = 0;
@@ -25,7 +25,7 @@ const int kScreenRayY = 1;
 const int kScreenRay0 = 2;
 const int kScreenDepth = 3;
 const int kScreenSky = 4;    // FrameData::skylight, or for the pass that draws the sky FrameData::sky
-const int kScreenPlace = 11; // of the first light
+const int kScreenPlace = 11; // the place of the first light
 const int kScreenColour = 12;
 const int kScreenRight = 13;
 const int kScreenNumberCount = 14;

@@ -7,8 +7,8 @@
 layout(set = 0, binding = 6) uniform sampler2D picture; // linear filter, clamped; alpha: luma
 layout(location = 0) out vec4 out_colour;
 
-const float kLeastContrast = 1.0 / 24.0; // of full range: what is flatter stays
-const float kContrastShare = 1.0 / 8.0;  // of the local maximum
+const float kLeastContrast = 1.0 / 24.0; // share of full range: flatter places stay
+const float kContrastShare = 1.0 / 8.0;  // share of the local maximum
 const float kSubpixel = 0.5;             // how much single pixels that stand out are smoothed
 const int kStrides = 8;
 const float kStride[kStrides] = float[](1.0, 1.0, 1.0, 1.5, 2.0, 2.0, 4.0, 8.0); // pixels

@@ -18,7 +18,7 @@ layout(set = 1, binding = 5) uniform sampler2D emissive_texture;
 vec2 place(int i, vec4 uvs)
 {
     TexturePlace at = material.places[i];
-    if (i == 0) { // of the base colour, which most materials have alone
+    if (i == 0) { // the place of the base colour, which most materials have alone
         at = TexturePlace(MATERIAL_PLACE_U, MATERIAL_PLACE_V);
     }
     vec2 uv = at.u.w > 0.5 ? uvs.zw : uvs.xy;

@@ -13,8 +13,8 @@ layout(set = 0, binding = 1) uniform sampler2D depths;
 layout(set = 0, binding = 9) uniform sampler2D normals;
 layout(location = 0) out uint out_seen;
 
-const float kMostReach = 0.3;       // of the picture's height: nearer to the eye the radius is less
-const float kLeastReachPixels = 1.0; // what is smaller on the screen fades away
+const float kMostReach = 0.3;       // share of the picture's height: nearer to the eye the radius is less
+const float kLeastReachPixels = 1.0; // a radius that is smaller on the screen fades away
 
 vec2 pictureSize() { return vec2(textureSize(depths, 0)); }
 
@@ -34,7 +34,7 @@ struct Seen {
     vec3 normal;
     float radius;
     float reach; // the radius in pixels
-    float shift; // of the steps
+    float shift; // the shift of the steps
 };
 
 // Steps grow with their distance, for what is near hides most.

@@ -12,7 +12,7 @@
 
 layout(constant_id = 2) const bool kAllTextures = false;
 
-layout(location = 1) in vec2 uv_base; // of the base colour
+layout(location = 1) in vec2 uv_base; // the base colour's coordinates
 layout(location = 2) in vec4 normal; // w: 4096 where it is creased, and the vertex's piece, over 32767
 layout(location = 3) in vec4 tangent;
 layout(location = 4) in vec4 colour; // linear

@@ -12,7 +12,7 @@ layout(location = kScreenPixel) in vec2 place_in;
 #define FRAME_RAY_0 SCREEN_NUMBER(kScreenRay0, ray_0)
 #define FRAME_DEPTH SCREEN_NUMBER(kScreenDepth, depth)
 #define FRAME_SKYLIGHT(I) SCREEN_NUMBER(kScreenSky + (I), skylight[I])
-#define FRAME_SKY(I) SCREEN_NUMBER(kScreenSky + (I), sky[I]) // of the pass that draws the sky
+#define FRAME_SKY(I) SCREEN_NUMBER(kScreenSky + (I), sky[I]) // for the pass that draws the sky
 
 // The pixel's own texel of an image that is as large as the picture and has a nearest sampler. llvmpipe 22.3 fetches with
 // a mip level for each lane, which takes three times as long as a sample does.

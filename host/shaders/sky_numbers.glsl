@@ -6,7 +6,7 @@
 // The plain one.
 #define SKY_ZENITH FRAME_SKY(0).rgb
 #define SKY_HORIZON FRAME_SKY(1).rgb
-#define SKY_GROUND FRAME_SKY(2).rgb // of both
+#define SKY_GROUND FRAME_SKY(2).rgb // the ground of both skies
 // The physical one, for each body: the way to it, and times what its tables hold; its disc, and the cosine of its radius.
 #define SKY_BODY(I) FRAME_SKY(3 * (I))
 #define SKY_DISC(I) FRAME_SKY(3 * (I) + 1)

@@ -15,7 +15,7 @@ GN_FN real3 filmicTone(real3 x)
 
 GN_CONST real kNeutralGain = real(1.3);   // brings a lit grey to where filmicTone() has it
 GN_CONST real kNeutralToe = real(0.02);   // subtracted, so that haze does not make shade grey
-GN_CONST real kNeutralStart = real(0.76); // of the compression
+GN_CONST real kNeutralStart = real(0.76); // where the compression starts
 GN_CONST real kNeutralPale = real(0.15);  // how fast too bright light loses its colour
 
 // ToneCurve::neutral: Khronos Group, "Khronos PBR Neutral Tone Mapper", 2024. The largest channel goes through a curve

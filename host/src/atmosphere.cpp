@@ -20,7 +20,7 @@ using namespace gnomon::shared::of_double;
 constexpr double kPi = std::numbers::pi;
 constexpr double kEye_km = 0.1; // a little above the ground, where the horizon is a line
 constexpr double kSunRadius_rad = 0.0047;
-constexpr double kGroundAlbedo = 0.3; // of the whole earth (Hillaire: 0.3), for light that is scattered up again
+constexpr double kGroundAlbedo = 0.3; // the whole earth's albedo (Hillaire: 0.3), for light that is scattered up again
 
 /// A function of two numbers in [0, 1] on a grid, linear in between.
 struct Grid {
@@ -60,7 +60,7 @@ double radiusAt(double radius, double up, double t)
 
 /// A piece of a ray through the air, by what is in its middle.
 struct Piece {
-    double t_km = 0.0; // of the middle, along the ray
+    double t_km = 0.0; // its middle, along the ray
     double radius_km = 0.0;
     Air air;
     glm::dvec3 passed{1.0}; // the share of light that gets through

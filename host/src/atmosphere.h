@@ -39,7 +39,7 @@ struct SkyUnder {
     Table dust;              // light that dust scatters once, without its phase; per steradian
     double largest = 1.0;    // number in both
     glm::dvec3 direct{0.0};  // illuminance of a surface that is square to the light
-    glm::dvec3 diffuse{0.0}; // of level ground, by the sky alone
+    glm::dvec3 diffuse{0.0}; // illuminance of level ground, by the sky alone
     Skylight light;          // by the sky alone, with the light's azimuth along +x
 };
 

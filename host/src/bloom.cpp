@@ -11,7 +11,7 @@
 namespace gnomon::host {
 namespace {
 
-constexpr std::uint32_t kGroup = 8; // of the shaders, on each side
+constexpr std::uint32_t kGroup = 8; // the group of the shaders, on each side
 
 // Read by the passes that follow, and added to by some.
 constexpr Access kLevelWrite{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,

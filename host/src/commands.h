@@ -43,7 +43,7 @@ struct Access {
     VkAccessFlags2 access = VK_ACCESS_2_NONE;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED; // images only
 };
-inline constexpr Access kDiscard{}; // of an image that was never used
+inline constexpr Access kDiscard{}; // for an image that was never used
 /// The access before an image's content is discarded: waits for the last `read` and for copies.
 constexpr Access discardAfter(const Access& read)
 {

@@ -99,7 +99,7 @@ double onDome(double direct, double sine, double diffuse)
 /// Light that an eye gets used to.
 struct Surroundings {
     double dome_lx = 0.0;
-    double sky_lx = 0.0; // of level ground, by the sky alone
+    double sky_lx = 0.0; // illuminance of level ground by the sky alone
 
     [[nodiscard]] double luminance() const
     {
@@ -128,7 +128,7 @@ struct Hour {
     glm::dvec3 level = kStars_lx * kStarlight; // illuminance of level ground
     Surroundings around{0.75 * kStars_lx, kStars_lx};
     double unit_lx = 1.0;  // lux per unit of the scene's lights
-    double camera = 1.0;   // what its user makes of the exposure
+    double camera = 1.0;   // the factor that its user puts on the exposure
     double exposure = 1.0; // picture value of 1 cd/m2
 
     [[nodiscard]] bool ownSun() const { return sun->body == scene::Body::sun; }

@@ -27,14 +27,14 @@ inline constexpr std::size_t kSkyBodies = 2; // sun, moon
 
 /// In the unit of Picture::linear.
 struct FrameLight {
-    std::array<glm::dvec3, kMaxLights> colours{}; // of each light: illuminance over pi, or intensity
+    std::array<glm::dvec3, kMaxLights> colours{}; // by light: illuminance over pi, or intensity
     Skylight skylight;
     double emission = 1.0; // times what materials emit
-    double lamps = 0.0;    // of lit windows
+    double lamps = 0.0;    // the brightness of lit windows
     bool physical = false; // the sky is; else it is a gradient
     glm::dvec3 zenith{0.0};
     glm::dvec3 horizon{0.0};
-    glm::dvec3 ground{0.0}; // what is seen below the horizon, in either sky
+    glm::dvec3 ground{0.0}; // the colour below the horizon, in either sky
     std::array<SkyBody, kSkyBodies> bodies;
     bool night_sky = false; // there are a moon or stars
     double stars = 0.0;     // how bright they are

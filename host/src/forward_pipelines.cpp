@@ -11,8 +11,9 @@ namespace gnomon::host {
 
 std::string forwardFragment(const ResolvedOptions& options)
 {
-    const std::string_view module = options.hasSmoothies() ? "smoothies" : nameOf(pack::filterModule(options));
-    return "forward_" + std::string(module) + ".frag";
+    std::string module(options.hasSmoothies() ? "smoothies" : nameOf(pack::filterModule(options)));
+    std::ranges::replace(module, '-', '_');
+    return "forward_" + module + ".frag";
 }
 
 SurfacePipelines Pipelines::shadowedFor(const ResolvedOptions& options)

@@ -32,7 +32,7 @@ struct FrameRenderer::Impl {
         Buffer deformed;        // vertices
         Buffer instead_staging; // masks of someone else's
         std::unique_ptr<Commands> commands;
-        std::uint64_t drawn_texels = 0; // of maps, by its frame; 0: it was not drawn
+        std::uint64_t drawn_texels = 0; // texels of maps, by its frame; 0: it was not drawn
     };
     using Clock = std::chrono::steady_clock;
 
@@ -73,7 +73,7 @@ struct FrameRenderer::Impl {
         const KindPipelines* pipelines = nullptr;
     } gbuffer;
     bool occluded = false; // shaded deferred, with ambient occlusion
-    Toning toned;          // what shades
+    Toning toned;          // toning in the pass that shades
     VkPipeline sky = VK_NULL_HANDLE;
     VkPipeline fading = VK_NULL_HANDLE; // where a surface fades into the sky
     VkPipeline shade = VK_NULL_HANDLE;
@@ -89,7 +89,7 @@ struct FrameRenderer::Impl {
     struct Shown {
         Camera camera;
         glm::uvec2 size_px{0};
-        std::uint64_t version = 0; // of `objects`
+        std::uint64_t version = 0; // the version of `objects`
 
         bool operator==(const Shown&) const = default;
     } shown_last;

@@ -37,7 +37,7 @@ double weightOf(const ShadedLight& light, const Camera& camera, const Frustum& v
     if (outside > extentOf(caster, scene_ws).reach_m) {
         return 0.0;
     }
-    constexpr double kTooNearToTell = 1e-3; // of the scene's diagonal
+    constexpr double kTooNearToTell = 1e-3; // share of the scene's diagonal
     const double least = kTooNearToTell * glm::length(glm::dvec3(scene_ws.extent()));
     const double away = isOrthographic(camera) ? outside : glm::distance(caster.position_ws, camera.eye_ws);
     return caster.brightness / (away * away + least * least);

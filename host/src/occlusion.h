@@ -13,8 +13,8 @@ struct Occlusion {
     /// `drawn` is the extent of the depth that it reads. Throws Error.
     Occlusion(Memory& memory, Pipelines& pipelines, VkExtent2D drawn);
 
-    Image searched; // of every second pixel, as it was found
-    Image smooth;   // what shading reads
+    Image searched; // the occlusion at every second pixel, as it was found
+    Image smooth;   // the image that shading reads
     VkPipeline search = VK_NULL_HANDLE;
     VkPipeline smoothen = VK_NULL_HANDLE;
 };

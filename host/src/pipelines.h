@@ -23,7 +23,7 @@ inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat kLightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat kPictureFormat = VK_FORMAT_R8G8B8A8_UNORM;
 inline constexpr VkFormat kOcclusionFormat = VK_FORMAT_R32_UINT; // host/shaders/occlusion_texel.glsl
-inline constexpr std::uint32_t kFrameBindings = 12;              // of set 0: numbers, and images from 1 on
+inline constexpr std::uint32_t kFrameBindings = 12;              // bindings of set 0: numbers, and images from 1 on
 /// Formats of the images that shading reads (host/shaders/gbuffer_surface.glsl); MaskInputs::normal, object_id, smooth.
 using GBufferFormats = std::array<VkFormat, 4>;
 /// 16-bit snorm for normals and smooth surfaces where the device draws to it, which none has to; else 32-bit floats,
@@ -135,7 +135,7 @@ public:
 
     SurfacePipelines blended; // lit without shadow
     SurfacePipelines emissive;
-    KindPipelines depth_alone; // of opaque surfaces
+    KindPipelines depth_alone; // for opaque surfaces
     VkPipeline sky = VK_NULL_HANDLE;
 
     /// Whether surfaces can read maps as they are drawn (hasForwardSamplers()). If not, blended surfaces are lit
@@ -168,7 +168,7 @@ public:
     OwnedSetLayout frame_layout;
     OwnedPipelineLayout scene_layout;    // set 0 frame, set 1 material; pushed: scene::ClipPlanes of what is cut
     OwnedPipelineLayout screen_layout;   // set 0 frame
-    OwnedSetLayout tiles_layout;         // of a compact mask: ShadowRenderer::maskTiles()
+    OwnedSetLayout tiles_layout;         // for a compact mask: ShadowRenderer::maskTiles()
     OwnedPipelineLayout compact_layout;  // as screen_layout, and set 1 tiles
     OwnedSetLayout maps_layout;          // the bindings of gnomon/visibility.glsl
     OwnedPipelineLayout shadowed_layout; // as scene_layout, and set 2 maps; pushed as there. Or null

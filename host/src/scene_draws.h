@@ -42,7 +42,7 @@ public:
 private:
     struct Blended {
         std::uint32_t object = 0;
-        double distance = 0.0; // of its middle from the eye, metres
+        double distance = 0.0; // from its middle to the eye, metres
         std::uint32_t instance = 0;
     };
     struct Slot {
@@ -63,10 +63,10 @@ private:
     std::vector<vulkan::Rows3x4> transforms_; // absolute, per object
     vulkan::DrawBatcher batcher_;
     std::vector<Slot> slots_;
-    const Slot* now_ = nullptr; // of the last build()
+    const Slot* now_ = nullptr; // the slot of the last build()
     std::vector<std::uint32_t> handles_;
     vulkan::DrawLists lists_;
-    std::vector<Blended> blended_; // of this frame, farthest first
+    std::vector<Blended> blended_; // blended draws of this frame, farthest first
 };
 
 } // namespace gnomon::host

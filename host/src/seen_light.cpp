@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMostLamps = 16;
 constexpr std::size_t kRays = 13;
 constexpr double kEnough = 3.0;        // rays that end in the picture: the lamp counts in full
-constexpr double kUnseen = 1.0 / 16.0; // of what a lamp gives where nobody sees it: 4 stops
+constexpr double kUnseen = 1.0 / 16.0; // the share of a lamp's light that counts where nobody sees it: 4 stops
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double candelaOf(const ShadedLight& light)
@@ -93,7 +93,7 @@ double seenAs(const glm::dvec3& p_ws, double size_m, const Sight& sight)
                                    std::abs(glm::dot(to, sight.up_ws)) / sight.half_y) /
                           scale;
     const double inside = 1.0 - glm::smoothstep(1.0, 4.0, beside);
-    constexpr double kLarge = 0.25; // of half the picture's height: a patch that counts in full
+    constexpr double kLarge = 0.25; // the share of half the picture's height at which a patch counts in full
     return inside * std::min(size_m / (kLarge * sight.half_y * scale), 1.0);
 }
 

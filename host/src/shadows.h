@@ -30,11 +30,11 @@ struct Shadows {
     Planner planner;
     vulkan::ShadowRenderer renderer;
     vulkan::CasterDrawer casters;
-    std::optional<MaskTiles> tiles;              // of a compact mask
-    std::optional<ForwardShadows> forward;       // of filters with maps
-    std::optional<VolumeMeshes> volume_meshes;   // of filters volumes and smoothies
-    std::optional<vulkan::VolumeDrawer> volumes; // of filter volumes
-    std::optional<vulkan::FinDrawer> fins;       // of filter smoothies
+    std::optional<MaskTiles> tiles;              // for a compact mask
+    std::optional<ForwardShadows> forward;       // for filters with maps
+    std::optional<VolumeMeshes> volume_meshes;   // for filters volumes and smoothies
+    std::optional<vulkan::VolumeDrawer> volumes; // for filter volumes
+    std::optional<vulkan::FinDrawer> fins;       // for filter smoothies
     const Plan* plan = nullptr;                  // the last one
     DrawRate draw_rate;                          // with ShadowOptions::draw_budget_ms
     bool warm = false;                           // a frame was measured, whose time was that of compiling, too

@@ -14,7 +14,7 @@ namespace gnomon::host {
 enum class Number : std::uint8_t { unorm8, unorm16, half, single, other };
 struct TexelForm {
     std::uint32_t channels = 1;
-    std::uint32_t bytes = 4; // of all channels
+    std::uint32_t bytes = 4; // bytes of all channels together
     Number number = Number::other;
 };
 [[nodiscard]] TexelForm formOf(VkFormat format);

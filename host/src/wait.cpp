@@ -20,7 +20,7 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr std::uint64_t kSliceNs = 100'000'000; // how late a wait notices that it is to end, at most
 constexpr Seconds kGrace{3.0};                  // for what was submitted, once the wait is to end
-constexpr double kBusyShare = 0.01;             // of one processor
+constexpr double kBusyShare = 0.01;             // share of one processor
 
 /// Tells slow from hanging. A GPU shows nothing of its progress, so there only time counts. A software rasteriser works
 /// in threads of this process: as long as the process uses more of a processor than these waits do, it gets on.

@@ -171,7 +171,7 @@ void writeExr(const std::filesystem::path& file, const ImageF& image, bool half)
         bytes = encodeExr(image, half);
     } catch (const std::bad_alloc&) {
         throw;
-    } catch (const Iex::ErrnoExc&) { // of a stream that failed, and those here are all in memory
+    } catch (const Iex::ErrnoExc&) { // a stream failed, and all streams here are in memory
         throw std::bad_alloc();
     } catch (const std::exception& problem) {
         throw Error("writing " + file.string(), oneLine(problem.what()));

@@ -85,7 +85,7 @@ struct Image {
     std::uint64_t width = 0;
     std::uint64_t height = 0;
     std::uint64_t tile_texels = 0;
-    std::uint64_t pixel_bytes = 0; // of all channels
+    std::uint64_t pixel_bytes = 0; // bytes of all channels
     unsigned compression = 0;
 };
 

@@ -46,7 +46,7 @@ private:
     };
     ErrorMeans errors_;
     DensityMeans density_;
-    Score sums_; // what is not a mean
+    Score sums_; // numbers that are summed, not averaged
     std::vector<std::optional<double>> rmse_;
 };
 

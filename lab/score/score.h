@@ -31,7 +31,7 @@ namespace gnomon::lab {
 /// Why pixels do not count, and how many do. A pixel that several reasons leave out belongs to the first of them.
 struct PixelCounts {
     std::uint64_t counted = 0;
-    std::uint64_t terminator = 0;   // of those that count
+    std::uint64_t terminator = 0;   // counted pixels at the terminator
     std::uint64_t background = 0;   // neither side sees anything
     std::uint64_t other_object = 0; // the sides see different objects
     std::uint64_t facing_away = 0;  // N·L of the smooth surface, else of the triangle, is 0 or less
@@ -66,9 +66,9 @@ struct Judged {
 /// All numbers of one technique's mask. The error numbers are absent when no pixel counts.
 struct Score {
     ImageF mask;
-    Outcome outcome; // of the light's map: without one the mask is all lit
+    Outcome outcome; // the outcome of the light's map: without one the mask is all lit
     std::optional<ErrorNumbers> error;
-    std::optional<double> grazing_rmse; // of the pixels that light all but grazes; absent where there are none
+    std::optional<double> grazing_rmse; // rmse over the pixels that light all but grazes; absent where there are none
     std::optional<double> ssim;
     std::optional<double> flip;
     std::optional<Classification> classification;

@@ -81,8 +81,8 @@ public:
     /// A step of the path: from one frame to the next.
     struct Step {
         std::uint64_t matched = 0;
-        double mean_abs = 0.0;     // of D; 0 when nothing matched
-        double mean_squared = 0.0; // of D; 0 when nothing matched
+        double mean_abs = 0.0;     // mean of |D|; 0 when nothing matched
+        double mean_squared = 0.0; // mean of D squared; 0 when nothing matched
     };
 
     /// Frames in order. `before`: null at the first. One channel each, of one size. A value that is not a number makes

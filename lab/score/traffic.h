@@ -25,7 +25,7 @@ namespace gnomon::lab {
 struct TrafficOptions {
     MapFormat format = MapFormat::d32f;
     double reach_texels = 0.5;      // how far the mask pass reads, along x and y each; >= 0.5
-    std::uint32_t image_layers = 1; // of one map
+    std::uint32_t image_layers = 1; // image layers of one map
     std::uint32_t mip_levels = 1;
     bool redraws_all = true;      // false: only views that say `redraw` are drawn
     bool reads_object_ids = true; // the mask pass is given object ids
@@ -53,7 +53,7 @@ inline constexpr std::uint64_t kObjectIdBytes = 4; // R32_UINT
 
 /// The work of one pass of a frame, and the least bytes that it moves.
 struct PassLeast {
-    std::uint64_t texels = 0; // of maps that it makes, or pixels of the mask
+    std::uint64_t texels = 0; // texels of the maps that it makes, or pixels of the mask
     std::uint64_t bytes = 0;
 };
 /// The least by pass. Nothing where the plan has no such pass, or where no least is known: the filter of maps of

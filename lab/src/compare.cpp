@@ -64,7 +64,7 @@ Score scoreDrawn(host::FrameRenderer& renderer, const Subject& subject, const tr
 {
     host::Picture picture = renderer.read({.colour = false, .linear = false, .masks = true, .geometry = true});
     const Plan plan = renderer.plan();
-    if (options.average_pixels) { // what was drawn of geometry is not in the middle of pixels, where the truth's is
+    if (options.average_pixels) { // geometry is not drawn in the middle of pixels, where the truth's is
         std::vector<ImageF> masks = std::move(picture.masks);
         renderer.drawAgain(*subject.state, subject.eye, subject.lights);
         picture = renderer.read({.colour = false, .masks = false, .geometry = true});

@@ -22,7 +22,7 @@ struct Tick {
 /// A bar of colours with ticks below it. Where labels would touch, those of later ticks are left out, so the most
 /// important come first.
 struct ScaleBar {
-    std::function<Colour(double)> colour_at; // of a place in [0, 1]
+    std::function<Colour(double)> colour_at; // the colour of a place in [0, 1]
     std::vector<Tick> ticks;
     std::string low; // below the bar's left end, middle and right end
     std::string middle;

@@ -39,7 +39,7 @@ void addTime(std::optional<double>& sum_ms, const std::optional<double>& part_ms
 std::vector<PassWork> passesOf(std::span<const host::FrameTimes> samples, const LeastByPass& least)
 {
     std::vector<PassWork> passes;
-    std::vector<std::vector<std::optional<double>>> times; // of each pass, by frame
+    std::vector<std::vector<std::optional<double>>> times; // times of each pass, by frame
     for (std::size_t frame = 0; frame < samples.size(); ++frame) {
         for (const vulkan::PassRecord& record : samples[frame].passes) {
             const auto found =

@@ -30,7 +30,7 @@ struct Walker {
     StabilityMeter meter;
     Timed timed;
     std::vector<ShownFrame> shown;
-    std::optional<ImageF> error_here; // of the frame before, by revisit()
+    std::optional<ImageF> error_here; // the error of the frame before, by revisit()
 };
 
 /// Can the moment of its last frame be drawn once more and leave it as it was?

@@ -23,7 +23,7 @@ constexpr int kEighths = 8;
 struct Panel {
     PixelRect rect;
     glm::dmat3 window_from_plane{1.0};
-    std::string name; // of its clip path
+    std::string name; // the name of its clip path
 
     [[nodiscard]] glm::dvec2 pixel(const glm::dvec2& window) const
     {

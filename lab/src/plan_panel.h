@@ -24,7 +24,7 @@ struct PlanObject {
 /// A scene in a plane.
 struct PlanLook {
     LightPlane plane;
-    std::vector<Polygon> shapes;   // of objects, by index
+    std::vector<Polygon> shapes;   // shapes of objects, by index
     std::optional<glm::dvec2> eye; // nothing: behind the light
     Polygon sight;                 // points of the camera's line of sight, from the eye on; open
 };
@@ -34,12 +34,12 @@ struct PlanMap {
     glm::dmat3 from_plane{1.0};
     Polygon seen;
     Polygon seen_across;    // the same in the plane of PlanScene::across
-    Polygon outline_across; // of the part that the map covers, there
+    Polygon outline_across; // the outline of the part that the map covers, there
     std::vector<std::uint32_t> casters;
 };
 /// All that is drawn.
 struct PlanScene {
-    PlanLook across; // of a point light from above
+    PlanLook across; // a point light seen from above
     bool from_above = false;
     std::vector<PlanObject> objects; // by index
     std::vector<PlanMap> maps;

@@ -19,7 +19,7 @@ constexpr double kMaps_px = 488.0; // room on the right for the maps
 constexpr double kMapGap_px = 16.0;
 constexpr double kTitle_px = 20.0; // above a panel
 constexpr std::size_t kMostMaps = 9;
-constexpr std::size_t kColumns = 130; // of the title
+constexpr std::size_t kColumns = 130; // columns of the title
 
 std::string textAt(double x, double y, const char* more, std::string_view text, std::size_t columns)
 {
@@ -56,7 +56,7 @@ PlanLook lookOf(const LightPlane& plane, const Frame& frame)
     const double far_m =
         glm::length(glm::dvec3(bounds.extent())) + glm::length(glm::dvec3(bounds.centre()) - frame.camera.eye_ws);
     look.eye = plane.project(frame.camera.eye_ws);
-    constexpr int kSteps = 256; // of a light with a place, some of the line is behind it
+    constexpr int kSteps = 256; // where the light has a place, some of the line is behind it
     for (int i = 0; i <= kSteps; ++i) {
         const double share = static_cast<double>(i) / kSteps;
         if (const auto q = plane.project(frame.camera.eye_ws + forward * (far_m * share * share))) {

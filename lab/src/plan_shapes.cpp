@@ -14,7 +14,7 @@
 namespace gnomon::lab {
 namespace {
 
-constexpr double kNearest_m = 1e-3; // of a light with a place: what is nearer has no image
+constexpr double kNearest_m = 1e-3; // distance from a light with a place: a nearer point has no image
 
 glm::dvec3 rowOf(const glm::dmat4& m, int row)
 {
@@ -108,7 +108,7 @@ std::vector<Plane> planesOf(const LightPlane& plane, const Frame& frame, const P
             add(view.serves.sector.w + side);
         }
     }
-    constexpr int kSides = 24; // of the pyramid that stands for a light's cone
+    constexpr int kSides = 24; // sides of the pyramid that stands for a light's cone
     const double tangent = std::tan(light.outer_half_angle_rad);
     const bool cone = plane.perspective && light.type == LightType::spot && layoutOf(light) == LightType::spot &&
                       glm::dot(plane.forward_ws, glm::normalize(light.direction_ws)) > 0.9999; // not a face of a cube

@@ -43,7 +43,7 @@ struct LightPlane {
 /// The map's point at clip space (x, y), as a point of the plane.
 [[nodiscard]] glm::dvec2 planePoint(const glm::dmat3& map_from_plane, double x, double y);
 
-inline constexpr std::array<glm::dvec2, 4> kCorners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}}; // of a map
+inline constexpr std::array<glm::dvec2, 4> kCorners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}}; // corners of a map
 /// A map as its own plane has it.
 struct MapInPlane {
     LightPlane plane;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kRow_px = 20.0;
 constexpr double kAtlas_px = 330.0;   // room for the atlas on the right
-constexpr std::size_t kMostRows = 12; // of the table
+constexpr std::size_t kMostRows = 12; // rows of the table
 constexpr std::uint32_t kMostLayers = 15;
 
 /// To three digits, whatever the locale.

@@ -23,7 +23,7 @@ char32_t takeCharacter(std::string_view& text)
     struct Form {
         unsigned char mask, lead;
         std::size_t length;
-        char32_t least; // what needs fewer bytes must use fewer
+        char32_t least; // smaller values must use fewer bytes
     };
     constexpr std::array<Form, 4> kForms{
         {{0x80, 0x00, 1, 0}, {0xE0, 0xC0, 2, 0x80}, {0xF0, 0xE0, 3, 0x800}, {0xF8, 0xF0, 4, 0x10000}}};

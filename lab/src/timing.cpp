@@ -74,7 +74,7 @@ void drawInTurn(std::vector<Turn>& turns, const SubjectAt& subject_at, const Tim
 void timeGroup(const host::SceneOnGpu& scene, const SubjectAt& subject_at, std::span<const Contestant> contestants,
                const TimingOptions& options, const std::function<void()>& step, TimingResult& result)
 {
-    const Subject* subject = nullptr; // of the round that is on
+    const Subject* subject = nullptr; // the subject of the round that is on
     const SubjectAt remembering = [&](std::uint32_t round) -> const Subject& {
         subject = &subject_at(round);
         return *subject;

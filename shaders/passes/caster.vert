@@ -48,17 +48,17 @@ layout(location = 10) in uint piece; // its lower bits count
 layout(location = 11) in vec4 colour_in; // linear
 layout(location = 0) out float metric;
 layout(location = 1) out vec2 uv;
-layout(location = 2) out vec3 rim; // of a paraboloid
+layout(location = 2) out vec3 rim; // for a paraboloid
 layout(location = 3) out float own;
 layout(location = 4) flat out float id;
 layout(location = 5) out vec4 colour;
-layout(location = 6) out vec4 ray; // of a paraboloid. xyz: from the light, w: minus the near distance, both in lengths of far - near
+layout(location = 6) out vec4 ray; // for a paraboloid. xyz: from the light, w: minus the near distance, both in lengths of far - near
 layout(push_constant) uniform Material
 {
     vec4 uv_u; // rows of the texture's transform: u = dot(uv_u.xyz, (uv, 1))
     vec4 uv_v;
     float cutoff;
-    int first_view; // of those that are drawn in one pass
+    int first_view; // the first of the views that are drawn in one pass
 #ifdef CLIPPED
     layout(offset = 64) vec4 clip_planes[2];
 #endif

@@ -43,7 +43,7 @@ layout(constant_id = 19) const bool kHasIds = false;   // else object_ids is a s
 #ifndef GNOMON_ONE_VIEW
 layout(constant_id = 20) const bool kSlicesAlone = false; // see light_visibility.glsl
 #define GNOMON_SLICES_ALONE kSlicesAlone
-#elif GNOMON_COMPILES_KERNELS // of others it would be bytes for little
+#elif GNOMON_COMPILES_KERNELS // for other filters it would add bytes and gain little
 #define GNOMON_PAIRS
 layout(constant_id = 21) const bool kPaired = false; // two positions of the sun
 #define GNOMON_PAIRED kPaired
@@ -59,8 +59,8 @@ layout(constant_id = 24) const bool kOrthographic = false; // all views are
 layout(constant_id = 22) const int kPixelsPerTexel = 1; // along x and y, of what is drawn to: mask-size=half
 layout(push_constant) uniform Lights
 {
-    uint first_light; // of the layer's; of a compact mask the layer
-    uint channels;    // bit i: this draw writes channel i; of a compact mask the draw's options
+    uint first_light; // the first light of the layer; with a compact mask the layer
+    uint channels;    // bit i: this draw writes channel i; with a compact mask the draw's options
 };
 layout(location = 0) flat in vec4 numbers_in[kMaskNumbers];
 GpuConstants numbers;
@@ -71,9 +71,9 @@ GpuConstants numbers;
 #define GNOMON_NEAREST_MAPS kInSoftware // filterable maps have a linear sampler, and no mapTexel() reads them
 #ifdef GNOMON_ONE_VIEW
 GpuView one_view;
-#define GNOMON_FEW_LIGHT first_light // of the draw's strip
+#define GNOMON_FEW_LIGHT first_light // the light of the draw's strip
 #ifdef GNOMON_PAIRS
-GpuView later_view; // of the later position
+GpuView later_view; // the view of the later position
 #define GNOMON_ONE_VIEW_OF(I) (!kPaired || (I) == 0u ? one_view : later_view)
 #define GNOMON_ONE_VIEW_STEPS numbers_in[kStepsPlace]
 #else

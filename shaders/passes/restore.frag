@@ -17,7 +17,7 @@ layout(push_constant) uniform Kept
 {
     int layer;
     int holding; // DEPTH_OF_COLOUR: a kDepth constant of paired_depth.h
-    float part;  // likewise
+    float part;  // DEPTH_OF_COLOUR: the part that pairedDepth() takes
 };
 
 void main()

@@ -59,7 +59,7 @@ void main()
         p = volumeWall(corner, pointOf(element.x), pointOf(element.y), left, casts(element.w, mirrored), place);
     }
     // At infinity w is 0 for an orthographic eye: a lamp's dark caps would not be drawn, and some drivers drop triangles of
-    // a sun's. So infinity is so many times as far as the caster is from the lamp, or as what a sun's eye sees is wide.
+    // a sun's. So infinity is kFarTimes times the caster's distance from the lamp, or half the width that a sun's eye sees.
     const float kFarTimes = 65536.0;
     mat3 rows = transpose(mat3(clip_from_eye));
     bool orthographic = clip_from_eye[0].w == 0.0 && clip_from_eye[1].w == 0.0 && clip_from_eye[2].w == 0.0;

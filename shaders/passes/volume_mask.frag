@@ -12,7 +12,7 @@ layout(constant_id = 2) const bool kIsInside = false;
 layout(constant_id = 3) const bool kHasIds = false; // else object_ids is a stand-in
 layout(push_constant) uniform Push
 {
-    vec4 place; // of the light, GpuLight::place
+    vec4 place; // the light's place, GpuLight::place
 };
 layout(set = 0, binding = 0, std140) uniform Constants
 {

@@ -83,7 +83,8 @@ inline void expectBounded(const Options& o, int draws)
 // Every filter with every way to store and to read.
 inline void expectAllBounded()
 {
-    for (const int filter : {GNOMON_FILTER_VSM, GNOMON_FILTER_LVSM, GNOMON_FILTER_ESM, GNOMON_FILTER_EVSM, GNOMON_FILTER_MSM}) {
+    for (const int filter :
+         {GNOMON_FILTER_VSM, GNOMON_FILTER_LVSM, GNOMON_FILTER_ESM, GNOMON_FILTER_EVSM, GNOMON_FILTER_MSM}) {
         for (int flags = 0; flags < 2 * kMomentPenumbra; ++flags) {
             for (const real exponent : {real(5.5), real(88.0)}) {
                 expectBounded({filter, flags, flags % 4, exponent}, 60);

@@ -122,7 +122,8 @@ TEST(Raymarch, SeesTheShareOfADiscBesideAHalfPlane)
     for (const double degrees : {0.53, 2.0, 8.0}) {
         for (const double texels : {8.0, 12.0, 24.0}) {
             for (const double height : {1.0, 7.0}) {
-                const Errors errors = errorsBesideAHalfPlane(GNOMON_FILTER_RAYMARCH, degrees, height, texels, {1.0, 0.3});
+                const Errors errors =
+                    errorsBesideAHalfPlane(GNOMON_FILTER_RAYMARCH, degrees, height, texels, {1.0, 0.3});
                 // From twelve texels on the rays' noise is what is left; below there are fewer rays.
                 EXPECT_LT(errors.rms, texels < 12.0 ? 0.03 : 0.02) << texels << " texels";
                 EXPECT_LT(std::abs(errors.mean), 0.002) << texels << " texels";

@@ -426,8 +426,7 @@ TEST(Msm, hostileValuesStayInRange)
                             };
                             for (const double depth : values) {
                                 point.depth = depth;
-                                const double v =
-                                    filterMsm(point, f, mapReads(f), sampleMoments(point, f, f.layer));
+                                const double v = filterMsm(point, f, mapReads(f), sampleMoments(point, f, f.layer));
                                 EXPECT_TRUE(v >= 0.0 && v <= 1.0) << v;
                             }
                         }

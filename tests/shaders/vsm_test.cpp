@@ -333,7 +333,8 @@ TEST_F(Vsm, numbersInTheTablesAreThoseOfTheEnum)
 {
     stored = {0.5, 0.3, 0.0, 0.0};
     point.depth = 0.7;
-    EXPECT_EQ(applyFilter(GNOMON_FILTER_VSM, point, input), filterVsm(point, input, sampleMoments(point, input, input.layer)));
+    EXPECT_EQ(applyFilter(GNOMON_FILTER_VSM, point, input),
+              filterVsm(point, input, sampleMoments(point, input, input.layer)));
     EXPECT_LT(filterVsm(point, input, sampleMoments(point, input, input.layer)), 1.0);
     EncodeInput e{};
     e.depth = 0.3;

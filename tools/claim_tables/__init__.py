@@ -13,7 +13,7 @@ class Part(NamedTuple):
     """One number that a claim is held against. It holds from `least` to `most`, both included; a NaN never does."""
     what: str  # "acne with a least variance of 0.0001"
     unit: str  # "of that without"
-    figure: Callable[[Any], float]  # of what the claim's commands have found, a Runs of tools/claims.py
+    figure: Callable[[Any], float]  # the number from all that the claim's commands have found, a Runs of tools/claims.py
     least: float = -inf
     most: float = inf
 

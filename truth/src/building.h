@@ -37,7 +37,7 @@ private:
     std::uint64_t current_ = 0;
     double shown_ = 0.0;
     std::thread::id caller_ = std::this_thread::get_id();
-    std::exception_ptr failure_; // of the caller's thread alone
+    std::exception_ptr failure_; // only the caller's thread sets it
     std::atomic<bool> stopped_{false};
 };
 

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t kMagic = 0x31485452'4D4F4E47ULL; // "GNOMTRH1" on a little-endian machine
 constexpr std::uint32_t kFormatVersion = 2;
 constexpr std::uint64_t kImages = 8;
-constexpr std::uint64_t kBytesPerPixel = 56; // of all images: five numbers and thrice xyz, 4 bytes each
+constexpr std::uint64_t kBytesPerPixel = 56; // all images together: five numbers and thrice xyz, 4 bytes each
 constexpr std::uint64_t kBitsPerByte = 8;
 
 std::uint64_t maskBytes(std::uint64_t pixels)
@@ -66,7 +66,7 @@ bool allWithin(const ImageF& image, float low, float high)
 bool hasValuesOfATruth(const Traced& traced)
 {
     constexpr float kLargest = std::numeric_limits<float>::max();
-    constexpr float kLongestAxis = 1.0F + 0x1p-20F; // of a unit vector, after rounding
+    constexpr float kLongestAxis = 1.0F + 0x1p-20F; // the largest axis of a unit vector, after rounding
     const Visibility& visibility = traced.visibility;
     return visibility.seconds >= 0.0 && visibility.seconds <= std::numeric_limits<double>::max() &&
            allWithin(traced.surfaces.points, -kLargest, kLargest) &&

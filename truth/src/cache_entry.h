@@ -30,7 +30,7 @@ struct EntryHeader {
     std::uint64_t rays = 0;
     double seconds = 0.0;
     std::uint64_t payload_bytes = 0;
-    scene::Hash128 checksum; // of the header up to here, and the payload
+    scene::Hash128 checksum; // the checksum of the header up to here, and of the payload
 };
 inline constexpr std::size_t kEntryHeaderBytes = 80;
 static_assert(sizeof(EntryHeader) == kEntryHeaderBytes);

@@ -16,7 +16,7 @@ namespace gnomon::truth {
 struct Tile {
     glm::uvec2 min{0};
     glm::uvec2 max{0};
-    Patience* patience = nullptr; // of the thread that waits for it
+    Patience* patience = nullptr; // the patience of the thread that waits for it
 
     /// Calls `f(x, y)` for each pixel, row by row.
     template <typename F>

@@ -33,14 +33,14 @@ struct GeometryDeleter {
 using ScenePointer = std::unique_ptr<RTCScene, SceneDeleter>;
 using GeometryPointer = std::unique_ptr<RTCGeometry, GeometryDeleter>;
 
-inline constexpr std::uint32_t kLanes = 8; // of a packet of rays
+inline constexpr std::uint32_t kLanes = 8; // rays in a packet
 
 /// The light along a ray after blended surfaces. It means nothing for a blocked ray.
 struct Tint {
     static constexpr std::uint32_t kMost = 16;
 
     glm::vec3 through;   // the share of red, green and blue that is left
-    std::uint32_t count; // of `crossed`
+    std::uint32_t count; // triangles counted; `crossed` has the last of them
     /// The last kMost triangles that were counted, since Embree may call a filter more than once for one hit. Behind
     /// more panes than that it is dark in any case.
     std::array<std::pair<std::uint32_t, std::uint32_t>, kMost> crossed;
@@ -50,7 +50,7 @@ struct Tint {
 struct RayContext {
     RTCIntersectContext base;           // first: a filter is handed a pointer to it
     bool from_camera = false;           // single-sided triangles are passed through from behind
-    std::uint32_t groups = 0xFFFFFFFFU; // of a shadow ray: Light::groups
+    std::uint32_t groups = 0xFFFFFFFFU; // the groups of a shadow ray: Light::groups
     /// The triangle that a shadow ray starts on, which it does not hit.
     std::uint32_t own_object = RTC_INVALID_GEOMETRY_ID;
     std::uint32_t own_triangle = RTC_INVALID_GEOMETRY_ID;
@@ -74,7 +74,7 @@ struct RayContext {
 struct Part {
     const scene::Primitive* primitive = nullptr;
     const std::vector<glm::vec3>* positions = nullptr;
-    const std::vector<glm::vec3>* normals = nullptr;      // of the vertices
+    const std::vector<glm::vec3>* normals = nullptr;      // the vertices' normals
     glm::dmat4 rel_from_object{1.0};                      // relative to SceneGeometry::originWs()
     std::optional<AlphaTest> alpha;                       // masked and blended materials
     scene::ClipPlanes clip_planes = scene::kNoClipPlanes; // in the space of `positions`

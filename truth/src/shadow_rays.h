@@ -54,7 +54,7 @@ private:
     struct Seen {
         glm::dvec3 direction{0.0}; // unit, to the centre
         double distance_m = 0.0;   // to the centre; +infinity for a directional light
-        double tangent = 0.0;      // of half the angle that it fills
+        double tangent = 0.0;      // the tangent of half the angle that it fills
         double end_radius_m = 0.0; // rays end on this sphere around the centre, or before
         /// The normal of a spot's near plane, where rays end too: unit, away from the light; 0 where there is none.
         glm::dvec3 plane_normal{0.0};

@@ -30,7 +30,7 @@ SmoothPoint smoothPoint(const Triangle& triangle, const std::array<glm::dvec3, 3
     const SmoothPoint flat{normal, 0.0};
     const std::array<double, 3> shares = sharesAt(triangle, rel);
     glm::dvec3 sum(0.0);
-    double above = 0.0; // of the planes over the point, along the sum
+    double above = 0.0; // the height of the planes over the point, along the sum
     for (std::size_t k = 0; k < 3; ++k) {
         sum += vertex_normals[k] * shares[k];
         above += shares[k] * glm::dot(vertex_normals[k], triangle.rel[k] - rel);

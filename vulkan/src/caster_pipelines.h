@@ -72,7 +72,7 @@ private:
     CasterDrawerOptions options_;
     DescriptorSets textures_; // for its layout: the host makes the sets
     DescriptorSets places_;
-    DescriptorSets first_surface_; // for its layout likewise
+    DescriptorSets first_surface_; // for its layout alone
     PipelineLayout layout_;
     std::vector<Made> made_;
 };

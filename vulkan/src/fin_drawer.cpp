@@ -40,7 +40,7 @@ struct FinPush {
 };
 static_assert(sizeof(FinPush) <= 128);
 
-/// But for the rows.
+/// The push constants of a pass, without the rows.
 FinPush pushOf(const MapPass& pass)
 {
     const Tile& tile = pass.view->place.tile;

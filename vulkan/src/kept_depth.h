@@ -17,7 +17,7 @@ public:
 
     /// Is there room for layers of this size?
     [[nodiscard]] bool covers(VkExtent2D extent, std::uint32_t layers) const;
-    /// Makes an image with at least so many layers of this size. It takes over what the one before holds at the next
+    /// Makes an image with at least `layers` layers of this size. It takes over what the one before holds at the next
     /// copyOutgrown().
     void grow(VkFormat format, VkSampleCountFlagBits samples, VkExtent2D extent, std::uint32_t layers);
     /// Retires what copyOutgrown() has copied.

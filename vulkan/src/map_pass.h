@@ -85,7 +85,7 @@ private:
     LayeredTarget kept_depths_; // depths of views whose colours do not hold them (keepsDepth()); none where there is no
                                 // such view
     std::optional<MapRestorer> restorer_;   // made when first needed
-    std::optional<MidpointMaps> midpoints_; // likewise
+    std::optional<MidpointMaps> midpoints_; // made when first needed
     std::optional<DepthBlocks> blocks_;
     std::optional<SmoothieMaps> smoothies_;
     std::optional<FinMaps> fins_;

@@ -163,12 +163,12 @@ private:
     std::vector<pack::MapImage> map_images_;    // for the frame that is being recorded, by options
     std::vector<std::uint8_t> tinted_;          // by options: some view has a map of tints
     pack::LightLists lists_;                    // for a compact mask
-    pack::CompactMask tiles_;                   // likewise
+    pack::CompactMask tiles_;                   // for a compact mask
     std::optional<AlternatePass> alternate_;    // made when a plan first needs it
-    std::optional<ConvergePass> converge_;      // likewise
-    std::optional<SoftenPass> soften_;          // likewise
-    std::optional<MaskSpread> spread_;          // likewise
-    std::optional<VolumePassRecorder> volumes_; // likewise
+    std::optional<ConvergePass> converge_;      // made when a plan first needs it
+    std::optional<SoftenPass> soften_;          // made when a plan first needs it
+    std::optional<MaskSpread> spread_;          // made when a plan first needs it
+    std::optional<VolumePassRecorder> volumes_; // made when a plan first needs it
     bool counts_volumes_ = false;
     std::optional<MaskShape> shape_; // shape of the inputs, as far as it is known
 };

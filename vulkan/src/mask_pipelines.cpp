@@ -22,7 +22,8 @@ struct MaskCode {
 
 MaskCode codeOf(Filter module)
 {
-    const std::string name(nameOf(module));
+    std::string name(nameOf(module));
+    std::ranges::replace(name, '-', '_');
     return {shaderCalled("mask_" + name + ".frag"), shaderCalled("mask_" + name + "_one.frag")};
 }
 

@@ -16,8 +16,8 @@ struct SpreadInputs {
     VkImageView depth = VK_NULL_HANDLE;
     VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkImageView normal = VK_NULL_HANDLE;     // VK_NULL_HANDLE: none
-    VkImageView object_id = VK_NULL_HANDLE;  // likewise
-    VkImageView no_numbers = VK_NULL_HANDLE; // stands in for it
+    VkImageView object_id = VK_NULL_HANDLE;  // VK_NULL_HANDLE: none
+    VkImageView no_numbers = VK_NULL_HANDLE; // stands in for object_id
     VkBuffer constants = VK_NULL_HANDLE;     // begins with a GpuConstants
 };
 
@@ -69,8 +69,8 @@ private:
     Image half_;
     Image marks_;                          // the mask's size; its single layer serves one after the other
     VkDescriptorSet set_ = VK_NULL_HANDLE; // for the frame that is being recorded
-    bool normals_ = false;                 // likewise
-    bool ids_ = false;                     // likewise
+    bool normals_ = false;                 // the frame that is being recorded has normals
+    bool ids_ = false;                     // the frame that is being recorded has object ids
 };
 
 } // namespace gnomon::vulkan

@@ -270,7 +270,7 @@ void MaskPassRecorder::warmUpSpread(const ResolvedOptions& options, const WarmUp
     }
 }
 
-/// By what lights may come to need, so that nothing is made in the middle of frames.
+/// Prepares what lights may come to need, so that nothing is made in the middle of frames.
 void MaskPassRecorder::prepareHistories(const Plan& plan)
 {
     const auto may = [&](auto&& does) {
@@ -291,7 +291,7 @@ void MaskPassRecorder::prepareHistories(const Plan& plan)
     }
 }
 
-/// Likewise, and by the format that this plan's lights are drawn in.
+/// Prepares it where some options halve the mask, in the format that this plan's lights are drawn in.
 void MaskPassRecorder::prepareSpread(const Plan& plan)
 {
     if (std::ranges::any_of(*plan.options, [](const ResolvedOptions& one) { return one.halvesMask(); })) {
@@ -304,7 +304,8 @@ void MaskPassRecorder::prepareSpread(const Plan& plan)
     }
 }
 
-/// Likewise. A plan whose lights have different options gets the pipelines for that, too.
+/// Prepares softening for options that ask for it. A plan whose lights have different options gets the pipelines for
+/// that, too.
 void MaskPassRecorder::prepareSoften(const Plan& plan)
 {
     for (const ResolvedOptions& options : *plan.options) {

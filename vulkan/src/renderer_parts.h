@@ -55,7 +55,7 @@ struct RendererParts {
     bool layered;                        // the device can
     std::vector<pack::FramePass> passes; // passes of the plan that was prepared last
     std::vector<MapReuse> reuse;         // by slot
-    std::vector<std::uint8_t> mask_kept; // likewise
+    std::vector<std::uint8_t> mask_kept; // by slot
     MapNotes notes;
     PreparedSize prepared;
     bool has_mask = false; // prepare() was given a screen

@@ -86,7 +86,7 @@ private:
     std::vector<Made> pipelines_;
     std::vector<Copy> copies_;
     Image depth_;
-    std::vector<pack::VolumeDraw> draws_; // of the frame that is being recorded
+    std::vector<pack::VolumeDraw> draws_; // draws for the frame that is being recorded
 };
 
 } // namespace gnomon::vulkan

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The six independent choices that make up a shadow technique, as closed sets. Any combination works or is refused up
-// front with a sentence that says why. A new technique is one new value here, one line in a table, and one file.
+// front with a sentence that says why. A new technique is a value here, a file, and its lines in tables:
+// CONTRIBUTING.md.
 #pragma once
 
 #include <gnomon/export.h>
@@ -34,7 +35,7 @@ enum class Filter : std::uint8_t {
     msm = GNOMON_FILTER_MSM,
     id = GNOMON_FILTER_ID,
     depth_id = GNOMON_FILTER_DEPTH_ID,
-    volumes, // these have no shader of their own
+    volumes = GNOMON_FILTER_COUNT, // from here on filters have no shader of their own
     smoothies,
     automatic
 };
@@ -91,7 +92,7 @@ inline constexpr Technique kPlainTechnique{Partition::single, Fit::uniform, Filt
 struct ChoiceValue {
     std::string_view choice;  // "light", "partition", "fit", "filter", "soften", "motion"
     std::string_view name;    // as typed on the command line; unique over all choices, except auto and smoothies
-    std::uint8_t value;       // of the choice's enum
+    std::uint8_t value;       // the value in the choice's enum
     std::string_view summary; // one line
     std::string_view source;  // author, title, year
 };
@@ -115,17 +116,17 @@ struct ChoiceValue {
 
 /// Facts of a filter that planning and the backend need; one row per filter but automatic.
 struct FilterTraits {
-    Filter filter;                       // whose facts these are
-    std::span<const MapFormat> formats;  // usable, the default first
-    std::string_view formats_reason;     // the sentence for a user who asks for another format
-    bool depth_only = false;             // a bare depth attachment can hold it
-    bool clamps_near = false;            // a caster before the near plane may be clamped onto it
-    bool filterable = false;             // texels may be averaged: MomentOptions apply, and receivers are drawn too
-    bool integrates_light = false;       // it always does, by comparing single depths: integratesLight() (options.h)
-    bool weighs_frames = false;          // Soften::converge: a frame counts for more, the nearer to a texel's centre it reads
-    bool ids = false;                    // texels hold ids of objects (object_ids.h): receivers are drawn too, and the mask gets
-                                         // the object of each pixel
-    bool has_maps = true;                // false: it counts faces of shadow volumes, and a light so planned has no views
+    Filter filter;                      // whose facts these are
+    std::span<const MapFormat> formats; // usable, the default first
+    std::string_view formats_reason;    // the sentence for a user who asks for another format
+    bool depth_only = false;            // a bare depth attachment can hold it
+    bool clamps_near = false;           // a caster before the near plane may be clamped onto it
+    bool filterable = false;            // texels may be averaged: MomentOptions apply, and receivers are drawn too
+    bool integrates_light = false;      // it always does, by comparing single depths: integratesLight() (options.h)
+    bool weighs_frames = false; // Soften::converge: a frame counts for more, the nearer to a texel's centre it reads
+    bool ids = false;           // texels hold ids of objects (object_ids.h): receivers are drawn too, and the mask gets
+                                // the object of each pixel
+    bool has_maps = true;       // false: it counts faces of shadow volumes, and a light so planned has no views
 };
 /// The row of a filter. Null for automatic, which stands for another filter (filterOf()).
 [[nodiscard]] GNOMON_API const FilterTraits* filterTraits(Filter filter);

@@ -96,7 +96,7 @@ struct LightExtent {
 struct Frame {
     std::uint64_t index = 0;            // counted by the host; the plan has it as well
     double time_s = 0.0;                // s, on any clock that does not run back; for steps and fades
-    Camera camera;                      // what looks at the scene
+    Camera camera;                      // the camera that looks at the scene
     glm::uvec2 size_px{1280, 720};      // the picture's size; >= 1
     std::span<const Light> lights;      // in any order; kept by the host
     const ObjectSet* objects = nullptr; // null: all lights get Outcome degenerate

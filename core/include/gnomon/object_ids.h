@@ -42,7 +42,7 @@ enum class IdSharing : std::uint8_t {
 struct IdHandout {
     std::uint32_t most = 65535;         // ids besides 0
     IdOf of = IdOf::object;             // whether an object or each piece has an id
-    IdSharing sharing = IdSharing::far; // what happens when there are more
+    IdSharing sharing = IdSharing::far; // the rule for objects beyond the number of ids
 };
 /// Memory that handOutIds() keeps between calls, so that it allocates nothing once all is large enough.
 struct IdScratch {

@@ -62,7 +62,7 @@ enum class MultiDivide : std::uint8_t {
 
 /// Partition multi.
 struct MultiOptions {
-    MultiDivide divide = MultiDivide::space; // what is divided among frustums
+    MultiDivide divide = MultiDivide::space; // space or receivers are divided among frustums
     /// Texels a pixel that each part of the picture gets, as long as a light's texels last: 0.125 .. 8. Nothing: 1, and
     /// then the remaining texels are given out too, until a texel is an eighth of a pixel. They are not given out where
     /// a frame's drawing is bounded (draw_budget_texels, draw_budget_ms), where map_size is given, by receivers, nor
@@ -92,7 +92,7 @@ enum class StepWait : std::uint8_t {
 
 /// How the step motions divide a sun's course.
 struct StepOptions {
-    StepBy by = StepBy::angle;               // what makes the next step due
+    StepBy by = StepBy::angle;               // the next step is due by angle or by time
     double angle_rad = 0.008726646259971648; // by angle: 0.5 degrees, about the sun's own width; 0.01 .. 28 degrees
     double interval_s = 2.0;                 // by time: 0.01 .. 86400, of Frame::time_s
     bool smooth = false;                     // step-blend, -band, -alternate: the share as a cubic, else linear

@@ -67,7 +67,7 @@ void AutoChooser::begin(const Recipe& recipe, LightType type, Memory& memory)
     const bool around = type == LightType::point;
     const bool takes_depth = recipe.takesDepth(type);
     const bool chooses =
-        recipe.choosesPartition() && recipe.options.quality != Quality::fast && !takes_depth && !around;
+        recipe.choosesPartition() && recipe.options().quality != Quality::fast && !takes_depth && !around;
     const Partition alone = around ? Partition::cube : takes_depth ? Partition::sdsm : Partition::single;
     const PartitionTraits* const first = recipe.choosesPartition() ? partitionTraits(alone) : recipe.partition;
     if (memory.count == (chooses ? 2U : 1U) && memory.candidates[0].partition == first) {
@@ -144,7 +144,7 @@ void AutoChooser::predict(const FrustumInput& input, const Sight& sight, std::ui
                           FrustumPlanner& frustums, Candidate& candidate)
 {
     slices_.clear();
-    candidate.partition->divide({input.light, input.camera, input.recipe.options.cascades}, slices_);
+    candidate.partition->divide({input.light, input.camera, input.recipe.options().cascades}, slices_);
     candidate.error = {};
     candidate.coarsest_px = 0.0;
     const std::uint32_t side = input.recipe.wishOf(input.light, 0, *candidate.partition, halvings).side;

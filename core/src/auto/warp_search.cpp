@@ -10,7 +10,7 @@
 namespace gnomon {
 namespace {
 
-/// The strengths that are tried first, each so many times the one before.
+/// The strengths that are tried first begin with kFirst. Each is kRatio times the one before.
 constexpr double kFirst = 1.25;
 constexpr double kRatio = 1.7;
 constexpr int kSections = 6;

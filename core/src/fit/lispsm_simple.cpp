@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A warp along the viewer's depth as it is found on what the frustum holds.
 // Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006, "What I tried": a simplified LiSPSM, its perspective
-// perpendicular to the rays and along the viewer's z. He leaves the rule open but for its ground: the usual algorithm
+// perpendicular to the rays and along the viewer's z. He gives no rule, only its ground: the usual algorithm
 // assumes a view without end, and whoever knows what is in the frustum can do with less.
 //
 // The rule here: fit the viewer's depth over what is seen by a plane, as the light sees it (view_slope.h); its gradient

@@ -11,12 +11,12 @@
 
 namespace gnomon {
 
-/// From so many times as coarse as without a warp its coarsest texel begins to count against it, and at so many there
-/// is nothing left of it: points tell it no better than by a hundredth.
+/// The coarsest texel counts against a warp from kLossBegins times its width without the warp, since points tell the
+/// width no better than by a hundredth. From there the warp fades, and at kLossEnds times nothing of it is left.
 inline constexpr double kLossBegins = 1.01;
 inline constexpr double kLossEnds = 1.4;
-/// A warp whose finest texel has so many times the texels of the map without it is drawn as it is; one that has no more
-/// than the map without it has nothing to give.
+/// A warp whose finest texels have kWorth times the density of the map without it is drawn as it is. One that has no
+/// more density than the map without it has nothing to give.
 inline constexpr double kWorth = 2.0;
 
 /// A warp with the greatest w changed from `own` to `strength` > 1. For parallel light: upright things stay upright at

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStretch = 1.0 / 32.0; // share of a step over which the sun's motion is measured
 constexpr double kAstray = 0.25;        // share of a step by which the sun may leave its way
-constexpr double kHaste = 2.0;          // then the share goes so many times as fast as the sun
+constexpr double kHaste = 2.0;          // the share then goes this number of times as fast as the sun
 /// step_jump: how far past the middle between two positions the sun gets before the next one is taken, share of a
 /// step: so a sun that trembles there does not make it jump to and fro.
 constexpr double kPastMiddle = 1.0 / 16.0;

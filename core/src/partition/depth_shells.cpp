@@ -15,7 +15,7 @@ namespace {
 /// A lamp before the eye takes no more than four (T. Forsyth: "usually only need 3-4 regions at extreme"). Six erred by
 /// 13 % less on the street of docs/techniques/multi.md, with twice the maps.
 constexpr std::size_t kMostShells = 4;
-/// Two shells are one where that needs no more than so many times their texels: each is some passes.
+/// Two shells become one where that needs at most kMergeCost times their texels, because each shell costs some passes.
 constexpr double kMergeCost = 1.3;
 /// The share of the nearest points that get no shell of their own. They may be guesses in a box around the eye, and so
 /// small a part of the picture may have texels that are too large.

@@ -10,7 +10,7 @@ namespace {
 
 /// New texels are so much larger than need be.
 constexpr double kRoom = 1.1;
-/// Texels that are so many steps larger than new ones would be are kept.
+/// Texels that are kTooCoarse steps larger than new ones would be are kept.
 constexpr int kTooCoarse = 3;
 
 const HeldFrustum* findPart(std::span<const HeldFrustum> frustums, const FrustumPart& part)

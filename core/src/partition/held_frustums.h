@@ -13,7 +13,7 @@ namespace gnomon {
 
 /// Which part of the world a frustum serves.
 struct FrustumPart {
-    int octave = 0; // of the values in ViewSlice: from 2^octave, or all that is less with kFromEye,
+    int octave = 0; // its values in ViewSlice begin at 2^octave, and have no lower end with kFromEye,
     int end = 0;    // to 2^end, or without end with kToEnd
     std::uint32_t sector = 0;
 
@@ -32,7 +32,7 @@ struct HeldFrustum {
 };
 
 [[nodiscard]] double texelOfStep(int step);
-/// The finest step of which so many texels show `size`.
+/// The finest step at which `texels` texels show `size`.
 [[nodiscard]] int stepFor(double size, double texels);
 /// The same with some room to pan, or `held` (none: it was not there), while that fits and is not much too coarse, or
 /// while it `stays` for other reasons.
@@ -46,7 +46,7 @@ struct HeldFrustums {
 
     [[nodiscard]] bool fading() const { return left > 0; }
     void cut();
-    /// The step of a frustum that has to show `size` on a map of so many texels: the one that it had, while that fits
+    /// The step of a frustum that has to show `size` on a map of `texels` texels: the one that it had, while that fits
     /// and is not much too coarse.
     [[nodiscard]] int stepOf(const FrustumPart& part, double size, double texels) const;
     /// The frame's frustums. Where they differ from those of the frame before, these begin to fade out, over `frames`.

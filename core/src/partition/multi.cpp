@@ -23,10 +23,10 @@
 namespace gnomon {
 namespace {
 
-/// Shells are taken where they want so many times the texels of none, and kept up to the second.
+/// Shells are taken where they want kTakeShells times the texels of no shells, and kept up to kKeepShells times.
 constexpr double kTakeShells = 0.75;
 constexpr double kKeepShells = 0.9;
-/// Other shells have to be the better ones for so many frames on end before what holds still is changed for them: what
+/// Other shells have to be better for this number of frames on end before what holds still is changed for them: what
 /// is known of the picture is some hundred guesses, and they jump.
 constexpr std::uint32_t kPatience_frames = 8;
 /// One frustum serves all of a shell if the light sees it within this half angle.
@@ -132,7 +132,7 @@ void MultiPartition::divide(const Input& input, std::size_t light, FrustumPlanne
         memory.held.cut();
         memory.cones.clear();
     }
-    const bool gathers = input.recipe.options.multi.divide == MultiDivide::receivers;
+    const bool gathers = input.recipe.options().multi.divide == MultiDivide::receivers;
     if (gathers) {
         gather(input, memory, frustums);
     } else {
@@ -181,7 +181,7 @@ void MultiPartition::findFrustums(const Input& input, Memory& memory, std::size_
                              static_cast<double>(input.frame.size_px.y) / Sight::kRows);
     findWays(input);
     const DepthShells::Input seen{input.light,          input.camera, ways_,
-                                  input.sight.points(), cell_px,      widestShell(input.recipe.options.multi)};
+                                  input.sight.points(), cell_px,      widestShell(input.recipe.options().multi)};
     if (memory.held.fading()) { // one change after the other
         shells_.findAgain(seen, memory.divides ? std::span<const int>(memory.ends) : std::span<const int>());
         (void)addShells(input, memory, frustums);
@@ -262,7 +262,7 @@ void MultiPartition::addShell(const Input& input, std::size_t shell)
     }
     for (std::size_t way = 0; way < ways_.size(); ++way) {
         part.sector = aimed_ ? kCubeFaces : static_cast<std::uint32_t>(way);
-        addFrustum(input, sliceOf(input.camera, ways_[way], part, input.recipe.options.cascades.blend), part);
+        addFrustum(input, sliceOf(input.camera, ways_[way], part, input.recipe.options().cascades.blend), part);
     }
 }
 
@@ -367,8 +367,8 @@ void MultiPartition::hold(const Input& input, HeldFrustums& held, std::size_t fi
         const int step = held.stepOf(frustum.part, frustum.size, texels);
         found_.push_back({frustum.part, step, frustum.side, frustum.sum, false});
     }
-    held.take(found_, input.recipe.options.multi.fade_frames);
-    const double faded_in = held.fadedIn(input.recipe.options.multi.fade_frames);
+    held.take(found_, input.recipe.options().multi.fade_frames);
+    const double faded_in = held.fadedIn(input.recipe.options().multi.fade_frames);
     for (std::size_t i = 0; i < found_.size(); ++i) {
         GrownFrustum& frustum = frustums_[first + i];
         frustum.id = idOf(held.now[i]);
@@ -387,7 +387,8 @@ void MultiPartition::addFading(const Input& input, const HeldFrustums& held)
 {
     for (const HeldFrustum& one : held.before) {
         const std::size_t count = frustums_.size();
-        addFrustum(input, sliceOf(input.camera, ways_[one.part.sector], one.part, input.recipe.options.cascades.blend),
+        addFrustum(input,
+                   sliceOf(input.camera, ways_[one.part.sector], one.part, input.recipe.options().cascades.blend),
                    one.part);
         if (frustums_.size() > count) {
             GrownFrustum& frustum = frustums_.back();

@@ -46,7 +46,7 @@ double pixelSide_m(const Frame& frame, const CameraView& camera)
 
 double shareOfFade(const MultiPartition::Input& input)
 {
-    return 1.0 / (input.recipe.options.multi.fade_frames + 1.0);
+    return 1.0 / (input.recipe.options().multi.fade_frames + 1.0);
 }
 
 /// The part of the world that a frustum around receivers serves: the pyramid around its rectangle, or of a sun the box.
@@ -97,7 +97,7 @@ Slice sliceOf(const ReceiverCone& cone, const Light& light, const CameraView& ca
 
 void MultiPartition::gather(const Input& input, Memory& memory, FrustumPlanner& frustums)
 {
-    const ShadowOptions& options = input.recipe.options;
+    const ShadowOptions& options = input.recipe.options();
     const bool steady = input.recipe.steady();
     const double most_times = options.multi.most_times > 0.0 ? std::max(options.multi.most_times, 2.0) : 4.0;
     const double largest = innerTexels(input, largestSide(input));
@@ -133,7 +133,7 @@ void MultiPartition::addCone(const Input& input, const ReceiverCone& cone)
 {
     GrownFrustum frustum;
     frustum.id = cone.id;
-    frustum.slice = sliceOf(cone, input.light, input.camera, input.recipe.options.cascades.blend);
+    frustum.slice = sliceOf(cone, input.light, input.camera, input.recipe.options().cascades.blend);
     listReceivers(input, frustum);
     if (frustum.receiver_count > 0) {
         frustums_.push_back(frustum);
@@ -160,7 +160,7 @@ void MultiPartition::orderCones(const Input& input, Memory& memory, std::size_t 
 /// coarse. A frustum whose texels have to change is another one.
 void MultiPartition::holdCones(const Input& input, Memory& memory, std::span<GrownFrustum> found)
 {
-    const bool at_once = memory.cones.empty() || input.recipe.options.multi.fade_frames == 0;
+    const bool at_once = memory.cones.empty() || input.recipe.options().multi.fade_frames == 0;
     std::vector<ReceiverCone>& now = memory.cones;
     now.clear();
     for (ReceiverCone& cone : gathered_) {
@@ -200,7 +200,7 @@ void MultiPartition::addFadingCones(const Input& input, Memory& memory)
         if (cone.pieces > 0) {
             continue;
         }
-        cone.opacity = input.recipe.options.multi.fade_frames == 0 ? 0.0 : cone.opacity - shareOfFade(input);
+        cone.opacity = input.recipe.options().multi.fade_frames == 0 ? 0.0 : cone.opacity - shareOfFade(input);
         const std::size_t count = frustums_.size();
         if (cone.opacity > 0.0 && cone.side > 0) {
             addCone(input, cone);

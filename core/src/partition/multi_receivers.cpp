@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each receiver wants so many texels per degree of the light as its nearest part has pixels. Receivers are taken from
+// Each receiver wants as many texels per degree of the light as its nearest part has pixels. Receivers are taken from
 // near to far. Each goes into the first frustum that holds it and has at least the texels it wants, but not more than
 // four times as many; else into the one that has to grow least for that; else into one of its own. A receiver that no
 // one frustum can hold is cut into six at most.
@@ -31,7 +31,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A receiver is cut into no more pieces: the faces of a cube.
 constexpr std::uint32_t kMostCuts = kCubeFaces;
-/// A light with so many frustums gets more only where none can turn to a receiver: rather coarse texels than none.
+/// A light with kEnoughCones frustums gets more only where none can turn to a receiver: coarse texels beat none.
 constexpr std::size_t kEnoughCones = 16;
 /// The texels of a frustum that holds still are so much finer than its receivers want at first, so that they last.
 constexpr double kFinerHeld = 0.7;

@@ -56,7 +56,7 @@ public:
         std::span<const std::uint32_t> receivers; // that the camera sees, in the light's reach
         double pixel_m = 0.0;                     // side of a pixel 1 m before a perspective camera, else anywhere
         double texels_per_pixel = 1.0;
-        double most_times = 4.0;     // a texel is no more than so many times finer than one of its receivers wants
+        double most_times = 4.0;     // the most times that a texel is finer than one of its receivers wants
         double largest_texels = 0.0; // texels on a side of the largest map
         double blend = 0.0;          // how much wider frustums of joined receivers are, share of half their width
         bool steady = false;

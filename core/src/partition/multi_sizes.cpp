@@ -23,21 +23,21 @@ std::uint32_t MultiPartition::largestSide(const Input& input)
 
 double MultiPartition::texelsPerPixel(const Input& input)
 {
-    return input.recipe.options.multi.texels_per_pixel.value_or(1.0);
+    return input.recipe.options().multi.texels_per_pixel.value_or(1.0);
 }
 
 bool MultiPartition::sharesRest(const Input& input)
 {
-    const MultiOptions& multi = input.recipe.options.multi;
+    const MultiOptions& multi = input.recipe.options().multi;
     const bool bounded_times = multi.divide == MultiDivide::receivers || multi.most_times > 0.0;
-    const bool bounded_texels = !input.recipe.options.map_size; // else a light may have any number, and none is left
+    const bool bounded_texels = !input.recipe.options().map_size; // else a light may have any number, and none is left
     return bounded_texels && !multi.texels_per_pixel && !bounded_times && !takesTurns(input);
 }
 
 /// Halves of halves of the largest side, which fill squares of the pages.
 void MultiPartition::sizeFrustums(const Input& input, Memory& memory, std::span<GrownFrustum> found)
 {
-    const ShadowOptions& options = input.recipe.options;
+    const ShadowOptions& options = input.recipe.options();
     claims_.clear();
     for (const GrownFrustum& frustum : found) {
         TexelClaim& claim = claims_.emplace_back();

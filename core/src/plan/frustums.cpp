@@ -202,7 +202,7 @@ void Frustums::addDivided(const Sights& sights, const LightPosition& position)
     const AutoDecision* const decision = recipe.predicts() ? &chooser_.decisionOf(recipe, position.light) : nullptr;
     const PartitionTraits& partition = decision != nullptr ? *decision->partition : *recipe.partition;
     slices_.clear();
-    partition.divide({position.at, setup.camera, recipe.options.cascades}, slices_);
+    partition.divide({position.at, setup.camera, recipe.options().cascades}, slices_);
     if (const std::uint32_t segments = recipe.resolved.segments(); segments > 1) {
         addSegments(sights, position, segments);
     }
@@ -222,7 +222,7 @@ void Frustums::addSegments(const Sights& sights, const LightPosition& position, 
     slices_.clear();
     planner_.divideTsm({sights.frame(), setup.recipe, setup.camera, receivers, receivers, position.at, whole,
                         wishes_[first_tenants_[position.light]].side},
-                       count, setup.recipe.options.cascades.blend, slices_);
+                       count, setup.recipe.options().cascades.blend, slices_);
 }
 
 } // namespace gnomon

@@ -21,7 +21,7 @@ struct LightFrustum {
     std::uint32_t tenant = 0;       // whose maps it has: index of Frustums::keys()
     std::uint32_t number = 0;       // which of them
     std::uint32_t wanted_side = 0;  // texels for which slice.texel counts; 0: for as many as the map gets
-    std::uint32_t gpu_cascades = 0; // its map is one that the GPU fits so many to parts of; 0: it is fitted here
+    std::uint32_t gpu_cascades = 0; // number of cascades that the GPU fits to parts of this map; 0: it is fitted here
 };
 
 /// One position that a light shines from, and its frustums.

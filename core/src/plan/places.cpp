@@ -30,8 +30,8 @@ void addPages(const std::vector<Setup>& setups, MapStore& store)
 {
     for (const Setup& setup : setups) {
         const std::uint64_t side = setup.recipe.resolved.largest_side();
-        const std::uint64_t budget = setup.recipe.options.budget_texels;
-        const std::uint64_t most = setup.recipe.options.max_layers;
+        const std::uint64_t budget = setup.recipe.options().budget_texels;
+        const std::uint64_t most = setup.recipe.options().max_layers;
         store.addPages(static_cast<std::uint32_t>(side),
                        static_cast<std::uint32_t>(budget == 0 ? most : std::min(most, budget / (side * side))));
     }

@@ -116,7 +116,7 @@ void Schedule::foreseeOf(Sights& sights, Frustums& frustums, const MapStore& sto
         turn.texels = turn.keeps_views && !turn.kept_back ? before.texels : frustums.texelsWanted(sights, index);
         claims_.push_back({index, turn.share, turn.texels, before.waited, turn.keeps_views, false});
     }
-    order_.take(claims_, drawBudget(sights.frame(), recipe.options), recipe.options.longest_wait);
+    order_.take(claims_, drawBudget(sights.frame(), recipe.options()), recipe.options().longest_wait);
     for (const DrawTurn& claim : claims_) {
         Turn& turn = lights_[claim.light];
         if (!turn.kept_back) {
@@ -197,7 +197,7 @@ void Schedule::takeOf(const Results& results, std::uint32_t options)
         claims_.push_back({index, turn.share, turn.texels, lightBefore(index).waited, turn.keeps_views, false});
     }
     const Recipe& recipe = results.sights.setups()[options].recipe;
-    order_.take(claims_, drawBudget(results.sights.frame(), recipe.options), recipe.options.longest_wait);
+    order_.take(claims_, drawBudget(results.sights.frame(), recipe.options()), recipe.options().longest_wait);
     for (const DrawTurn& claim : claims_) {
         if (claim.view != kNoIndex) {
             results.maps[claim.view].waits = !claim.drawn;

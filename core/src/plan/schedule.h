@@ -127,7 +127,7 @@ private:
     std::vector<ViewGround> next_grounds_;
     // Scratch.
     std::vector<std::uint64_t> keys_;
-    Region seen_; // what a cascade sees, without room
+    Region seen_; // the part that a cascade sees, without room
     DrawTurns order_;
     std::vector<DrawTurn> claims_;
     std::vector<View> next_views_;

@@ -44,10 +44,10 @@ WideSight& Schedule::lookWide(const Sights& sights, std::uint32_t options)
     if (!wide.looked) {
         wide.looked = true;
         const Setup& setup = sights.setups()[options];
-        const double room = setup.recipe.options.cascades.room;
+        const double room = setup.recipe.options().cascades.room;
         wide.frame = sights.frame();
         wide.frame.camera = widened(wide.frame.camera, room);
-        wide.camera.look(wide.frame, setup.recipe.options.max_distance_m * (1.0 + room), wide.receivers);
+        wide.camera.look(wide.frame, setup.recipe.options().max_distance_m * (1.0 + room), wide.receivers);
         wide.camera.near_m = setup.camera.near_m;
         wide.camera.far_m = widenedFar_m(setup.camera, room);
     }

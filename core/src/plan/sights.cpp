@@ -120,7 +120,7 @@ Outcome Sights::check(const Light& light, Setup& setup)
 /// Which layers of the world this frame's are: the options', the frame's, or found.
 Outcome Sights::layer(Setup& setup)
 {
-    const MomentOptions& moments = setup.recipe.options.moments;
+    const MomentOptions& moments = setup.recipe.options().moments;
     const auto given = std::span(moments.world_layers).first(moments.layers);
     if (given.front() != WorldLayer{} || given.back() != WorldLayer{}) {
         setup.layers.assign(given.begin(), given.end());
@@ -149,7 +149,7 @@ void Sights::look(Setup& setup)
     setup.sighted = false;
     CameraView& camera = setup.camera;
     const Recipe& recipe = setup.recipe;
-    camera.look(frame_, recipe.options.max_distance_m, setup.receivers);
+    camera.look(frame_, recipe.options().max_distance_m, setup.receivers);
     if (!setup.sees()) {
         return;
     }
@@ -158,7 +158,7 @@ void Sights::look(Setup& setup)
         setup.sight.look(frame_, camera, setup.receivers);
     }
     if (recipe.steady()) {
-        camera.boundDepths(frame_.camera, recipe.options.max_distance_m);
+        camera.boundDepths(frame_.camera, recipe.options().max_distance_m);
     } else if (recipe.partition != nullptr && recipe.partition->measures) {
         camera.measureDepths(*frame_.objects, setup.receivers);
     } else {
@@ -187,7 +187,7 @@ void Sights::listInReach(const Light& light)
     }
     const auto first = static_cast<std::ptrdiff_t>(in_reach_.size());
     frame_.objects->query(planes_, ObjectSet::Want::receivers, in_reach_);
-    if (setup.recipe.options.max_distance_m > 0.0) { // which is finer than planes
+    if (setup.recipe.options().max_distance_m > 0.0) { // which is finer than planes
         const auto far = std::remove_if(in_reach_.begin() + first, in_reach_.end(), [&](std::uint32_t object) {
             return !std::ranges::binary_search(setup.receivers, object);
         });
@@ -212,7 +212,7 @@ void Sights::followSun(std::uint32_t index, const FramesBefore& before, LightPla
         return;
     }
     const SunCourse& course =
-        suns_.follow(light, frame_.time_s, recipe.motion->stepping, recipe.options.steps, before.camera_moves);
+        suns_.follow(light, frame_.time_s, recipe.motion->stepping, recipe.options().steps, before.camera_moves);
     planned.steps = course.steps();
     // By turns of the slots, not of the positions: then after a step too the frame before has read the other one, or
     // the one whose weight was next to nothing.

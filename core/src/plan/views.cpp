@@ -51,7 +51,7 @@ void Views::fitLight(const Results& from, std::uint32_t index)
     if (planned.outcome.kind == OutcomeKind::ok) {
         planned.outcome = prospect(from, index);
     }
-    if (planned.outcome.kind == OutcomeKind::ok && recipe.filter->ids) {
+    if (planned.outcome.kind == OutcomeKind::ok && recipe.resolved.traits().ids) {
         planned.outcome = handOutIds(from, index);
     }
     if (planned.outcome.kind == OutcomeKind::ok) {
@@ -78,7 +78,7 @@ Outcome Views::prospect(const Results& from, std::uint32_t index)
                 ? "the camera sees nothing that receives shadow, and some objects are nowhere (ObjectSet::nowhere())"
                 : "the camera sees nothing that receives shadow"};
     }
-    if (setup.recipe.options.technique.filter == Filter::pcss) {
+    if (setup.recipe.options().technique.filter == Filter::pcss) {
         const Outcome width = widthForPcss(from.sights.frame().lights[index], objects);
         if (width.kind != OutcomeKind::ok) {
             return width;
@@ -158,7 +158,7 @@ Outcome Views::fitWide(const Results& from, const LightPosition& position, const
     }
     const std::span<const std::uint32_t> levellers =
         recipe.steady() ? from.sights.allReceivers() : std::span<const std::uint32_t>(turn.seen->receivers);
-    const Slice wide = widened(frustum.slice, setup.camera, recipe.options.cascades.room);
+    const Slice wide = widened(frustum.slice, setup.camera, recipe.options().cascades.room);
     View fitted;
     fitted.light = position.light;
     const Outcome outcome = planner_.plan({.frame = turn.seen->frame,

@@ -51,7 +51,7 @@ Outcome Views::listClosed(const Results& from, std::uint32_t index)
     const auto open = std::remove_if(first, casters.end(),
                                      [&](std::uint32_t object) { return !frame.objects->flags(object).closed; });
     planned.left_out = static_cast<std::uint32_t>(casters.end() - open);
-    if (planned.left_out > 0 && setup.recipe.options.volumes.open == OpenCasters::refuse) {
+    if (planned.left_out > 0 && setup.recipe.options().volumes.open == OpenCasters::refuse) {
         return kOpenCaster;
     }
     casters.erase(open, casters.end());

@@ -36,7 +36,7 @@ struct MapContents {
     std::vector<std::uint32_t> still; // casters, ascending; all of them for a map that is drawn all at once
     std::vector<Mover> moving;        // those that were drawn over a kept copy of `still`; ascending
 
-    /// Would drawing these casters now give the same, but for `moving`? `changes` are ObjectSet::allChanges().
+    /// Would drawing these casters now give the same, except for `moving`? `changes` are ObjectSet::allChanges().
     [[nodiscard]] bool show(const MapProjection& now, std::span<const std::uint32_t> casters,
                             std::span<const std::uint64_t> changes) const;
     [[nodiscard]] bool showMovers() const;

@@ -292,8 +292,8 @@ void MapStore::drawAnew(View& view)
     view.contents.redraw = true;
 }
 
-/// Compares what a map holds with what it should. Says so in the view, but for what it will hold; `still_` and
-/// `moving_` are its casters where there is a kept copy.
+/// Compares what a map holds with what it should hold. Writes the result to the view, except what the map will hold.
+/// `still_` and `moving_` are its casters where there is a kept copy.
 MapStore::Due MapStore::dueOf(View& view, const MapPlace& place, std::span<const std::uint32_t> casters,
                               const ObjectSet& objects)
 {

@@ -45,7 +45,7 @@ struct MapPlace {
 /// - its light is gone, or wants other maps,
 /// - there is room for it as large as it is wanted, where there was not before,
 /// - lost() or forget() is told, or another object set comes.
-/// Neither what other lights do nor the frame's order of lights counts, but for room: first come, first served.
+/// Other lights and the frame's order of lights count only for room: first come, first served.
 class MapStore {
 public:
     MapStore();

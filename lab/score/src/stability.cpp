@@ -141,7 +141,7 @@ std::optional<double> Reprojection::fetch(const ImageF& before, std::size_t pixe
     double value = 0.0;
     double sum = 0.0;
     for (std::size_t i = 0; i < fetch.weights.size(); ++i) {
-        if (fetch.weights[i] != 0.0F) { // what does not match may be anything, NaN too
+        if (fetch.weights[i] != 0.0F) { // a value that does not match may be anything, NaN too
             value += static_cast<double>(fetch.weights[i]) * before.values[fetch.pixels[i]];
             sum += fetch.weights[i];
         }

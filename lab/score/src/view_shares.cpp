@@ -16,7 +16,7 @@ void shareOut(std::span<const View> views, const glm::dvec3& point_ws, double re
               float* shares)
 {
     bool found = false;
-    double left = 1.0; // of layered views: the share that earlier ones leave
+    double left = 1.0; // with layered views: the share that earlier ones leave
     for (std::size_t i = 0; i < views.size(); ++i) {
         const View& view = views[i];
         const auto texel = texelOf(view, point_ws);

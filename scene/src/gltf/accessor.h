@@ -51,7 +51,7 @@ struct Accessor {
     bool normalized = false;
     std::uint32_t count = 0;
     std::uint32_t components = 1;   // per element
-    std::uint32_t rows = 1;         // of a matrix column; = components for vectors
+    std::uint32_t rows = 1;         // rows of a matrix column; = components for vectors
     std::uint32_t column_bytes = 0; // distance between matrix columns
     std::uint64_t stride = 0;       // bytes between elements
     std::uint32_t view = kNone;

@@ -170,7 +170,7 @@ void readNodes(Document& document)
     const Tree tree = readTree(document);
     std::vector<Node> all;
     std::vector<bool> hidden;
-    std::vector<Casting> castings; // of each node's own
+    std::vector<Casting> castings; // the casting that each node itself has
     all.reserve(tree.parents.size());
     for (std::size_t i = 0; i < tree.parents.size(); ++i) {
         all.push_back(readNode(document, nodeView(document, i)));

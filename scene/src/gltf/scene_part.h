@@ -19,7 +19,7 @@ struct Tree {
 struct ScenePart {
     std::string name;                 // empty: it has none
     std::vector<std::uint32_t> nodes; // parents first
-    std::vector<bool> shown;          // of all nodes: named, or below one that is; the others only move these
+    std::vector<bool> shown;          // by node: named, or below one that is; the others only move these
 };
 
 /// The nodes of scene `scene`, else of the first, else all. A node's place follows from the nodes above it, and a

@@ -14,7 +14,7 @@ namespace gnomon::scene::gltf {
 
 struct Resource {
     std::vector<std::byte> bytes;
-    std::string media_type; // of a data URI; else empty
+    std::string media_type; // the media type of a data URI; else empty
 };
 
 /// Fetches what the string `uri` names: a data URI (base64 or percent-encoded), or a relative path below the asset's

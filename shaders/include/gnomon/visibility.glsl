@@ -11,7 +11,7 @@
 //   GNOMON_FILTERS  in its place: the bits of the filters to compile (1 << GNOMON_FILTER_PCF)
 //   GNOMON_ORTHOGRAPHIC_ONLY  true, or a constant that says so: all views are orthographic (ViewProjection::orthographic), which
 //                   costs less
-//   GNOMON_TINTS    true, or a constant that says so: blended casters tint the light, which takes a seventh binding
+//   GNOMON_TINTS    true, or a constant that says so: blended casters tint the light, which takes binding 6
 //   GNOMON_LAYERED  true, or a constant that says so: options may have MultiDivide::receivers. Without it frustums that
 //                   overlap do not fade over into each other
 //   GNOMON_IN_SOFTWARE  true, or a constant that says so: a software rasteriser runs it, which is then quicker. Without it
@@ -19,7 +19,7 @@
 //   GNOMON_SMOOTHIES  true, or a constant that says so: options may have soften smoothies (hard and pcf) or
 //                   filter smoothies, for which GNOMON_FILTER is GNOMON_FILTER_PCF
 //   GNOMON_OBJECT   needed for filters id and depth-id: the index in Frame::objects of the object whose surface is
-//                   shaded, as an expression (uint); takes an eighth binding
+//                   shaded, as an expression (uint); takes binding 7
 //   GNOMON_PIECE    beside it, for lights with IdOf::face: the piece of that object (uint), as its casters have it; else 0
 // Bindings, from GNOMON_BINDING on (structures: gnomon/shared/gpu_structs.h):
 //   0  uniform buffer: GpuConstants
@@ -27,7 +27,7 @@
 //      levels, for others nearest (not every device filters depth); it clamps to the edge
 //   2  storage buffer: GpuLight, by the light's index
 //   3  storage buffer: GpuView. With Partition::sdsm the backend completes them on the GPU
-//   4  storage buffer: GpuDepthLayers. Only filter lvsm reads it
+//   4  storage buffer: GpuDepthLayers. Only where filter lvsm is compiled
 //   5  combined image sampler, 2D array of unsigned integers: the blocks of the maps (gnomon/shared/map_blocks.h), in GENERAL,
 //      sampler nearest. Filters pcss and raymarch; a shader for other filters does not have it. For hard and pcf with
 //      GNOMON_SMOOTHIES it holds their smoothies (gnomon/shared/smoothies.h)

@@ -23,7 +23,7 @@ enum class Room : std::uint8_t { bar, lounge, garden, market, berths, lab, store
 
 struct RoomColours {
     glm::vec4 floor;
-    glm::vec4 trim; // of the floor, towards the promenade
+    glm::vec4 trim; // the trim of the floor, towards the promenade
     glm::vec4 wall;
 };
 [[nodiscard]] RoomColours coloursOf(Room room);

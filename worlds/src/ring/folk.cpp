@@ -18,7 +18,7 @@ namespace {
 using World = RingWorld;
 
 constexpr std::uint32_t kWalkers = 46;
-constexpr double kPace_m_per_s = 1.05; // of all, so that none runs into another
+constexpr double kPace_m_per_s = 1.05; // everybody's pace, so that none runs into another
 constexpr float kLegSwing_rad = 0.46F;
 constexpr float kArmSwing_rad = 0.50F;
 enum Limb : std::uint32_t { kBody, kRightLeg, kLeftLeg, kRightArm, kLeftArm, kLimbs };

@@ -10,9 +10,9 @@ namespace gnomon::worlds {
 namespace {
 
 constexpr float kHalfTurn = kPi;
-constexpr double kAtHull_m = 10.0 - 0.15;                          // of lamps on the hull's wall
-constexpr double kEnd = 4.0 - 0.056 - 0.077;                       // tiles: of lamps on the walls between rooms
-constexpr double kHung_m = kRail_m - static_cast<double>(kCord_m); // of lamps below rails
+constexpr double kAtHull_m = 10.0 - 0.15;                          // for lamps on the hull's wall
+constexpr double kEnd = 4.0 - 0.056 - 0.077;                       // tiles: for lamps on the walls between rooms
+constexpr double kHung_m = kRail_m - static_cast<double>(kCord_m); // for lamps below rails
 
 /// Turns a lamp to the wall at the room's end with more tiles (side 1) or fewer.
 float towardsEnd(int side, bool more)

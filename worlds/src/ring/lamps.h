@@ -43,7 +43,7 @@ private:
     Scene& scene_;
     const RingPalette& palette_;
     std::array<std::uint32_t, kLamps> meshes_{};
-    std::array<std::uint32_t, kHues> bulbs_{}; // of radius 1
+    std::array<std::uint32_t, kHues> bulbs_{}; // bulbs of radius 1
     std::uint32_t rings_ = 0;
     std::uint32_t count_ = 0;
     std::uint32_t moods_ = 0;

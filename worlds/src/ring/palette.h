@@ -20,11 +20,11 @@ struct RingPalette {
     std::uint32_t wall = kNone; // panels; hull and rooms
     std::uint32_t metal = kNone;
     std::uint32_t gloss = kNone;
-    std::uint32_t shade = kNone;     // of lamps: lit from within, seen from both sides
+    std::uint32_t shade = kNone;     // for lamps: lit from within, seen from both sides
     std::uint32_t pane_warm = kNone; // these two glow a little
     std::uint32_t pane_cold = kNone;
-    std::array<std::uint32_t, kHues> glow{}; // of bulbs
-    std::array<std::uint32_t, kHues> neon{}; // of signs and screens: less, so that its colour shows
+    std::array<std::uint32_t, kHues> glow{}; // for bulbs
+    std::array<std::uint32_t, kHues> neon{}; // for signs and screens: less, so that its colour shows
 
     [[nodiscard]] std::uint32_t neonOf(Hue hue) const { return neon[static_cast<std::size_t>(hue)]; }
 };

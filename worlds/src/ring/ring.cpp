@@ -91,7 +91,7 @@ Scene makeRing(std::uint64_t seed)
     scene.environment.sky_zenith = {0.0022F, 0.0036F, 0.0095F};
     scene.environment.sky_horizon = {0.0070F, 0.0085F, 0.0165F};
     scene.environment.ground = {0.0044F, 0.0038F, 0.0052F};
-    scene.environment.ambient = 5.0F; // of lights that nobody sees
+    scene.environment.ambient = 5.0F; // stands for the lights that nobody sees
     scene.environment.exposure = 1.2F;
     addRingViews(scene);
     scene.procedural = [folk, rings = lamps.rings()](double time_s, std::vector<Node>& nodes) {

@@ -23,11 +23,11 @@ constexpr double kWall_m = 2.8;   // height
 constexpr double kThick_m = 0.22; // thick enough for every map's bias
 constexpr double kBelow_m = -0.1; // no light passes between wall and deck
 constexpr double kDoor_m = 2.25;
-constexpr double kCut_m = 1.05;     // what is left of a front that is cut away
+constexpr double kCut_m = 1.05;     // the height that is left of a front that is cut away
 constexpr double kPostCut_m = 1.22; // and of its posts: the top of their rings
 
 const glm::vec4 kSteel = rgb(0x9AA0AA);
-const glm::vec4 kOutside = rgb(0x9C958C); // of rooms, as the promenade sees them
+const glm::vec4 kOutside = rgb(0x9C958C); // the outside of rooms, as the promenade sees them
 
 /// The front of a room, a letter a tile: solid, window, door, grille, low wall, nothing.
 std::string_view frontOf(Room room)

@@ -29,10 +29,10 @@ private:
     struct Unit {
         std::uint32_t body = 0; // node; the legs follow
         std::uint32_t squad = 0;
-        float ahead_m = 0.0F; // of the squad's middle
+        float ahead_m = 0.0F; // distance ahead of the squad's middle
         float right_m = 0.0F;
         float scale = 1.0F;
-        float step = 0.0F; // of the walk cycle, in turns
+        float step = 0.0F; // place in the walk cycle, in turns
     };
     struct Squad {
         std::uint32_t loop = 0;

@@ -91,7 +91,7 @@ void addTrunkAndHead(Part& part)
 /// Along two bones, with a ring of vertices every few centimetres for the joint between them to bend.
 void addLimb(Part& part, const Bone& upper, const Bone& lower, float thick_m, float thin_m)
 {
-    constexpr int kRings = 7; // of each bone
+    constexpr int kRings = 7; // rings of each bone
     std::vector<glm::vec3> path;
     std::vector<float> radii;
     for (int i = 0; i <= 2 * kRings; ++i) {

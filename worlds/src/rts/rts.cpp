@@ -35,7 +35,7 @@ struct Actors {
 
 /// The giant's loop, the far round, and where on it he is at first: out of sight of `camp` and `unit`.
 constexpr std::size_t kGiantsLoop = 3;
-constexpr float kGiantStarts = 0.25F; // of the loop
+constexpr float kGiantStarts = 0.25F; // share of the loop
 
 void addSun(Scene& scene)
 {

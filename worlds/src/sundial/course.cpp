@@ -17,7 +17,7 @@ namespace gnomon::worlds {
 
 namespace {
 
-constexpr double kHourAngle_rad = std::numbers::pi / 12.0; // of one hour
+constexpr double kHourAngle_rad = std::numbers::pi / 12.0; // the sun's turn in one hour
 constexpr double kSecondsPerHour = 3600.0;
 
 /// Unit vector to a body with this local hour angle, which is 0 in the south and grows westwards. Equations 13.5 and

@@ -84,8 +84,8 @@ void addNumeral(Part& bronze, std::string_view numeral)
 {
     constexpr float kThick = 0.026F;
     constexpr float kThin = 0.014F;
-    constexpr float kWide = 0.100F;    // of V and X
-    constexpr float kUpright = 0.026F; // of I
+    constexpr float kWide = 0.100F;    // the width of V and X
+    constexpr float kUpright = 0.026F; // the width of I
     constexpr float kGap = 0.020F;
     const auto widthOf = [](char letter) {
         return letter == 'I' ? kUpright : kWide;

@@ -100,7 +100,7 @@ void addRoofs(const SundialPalette& palette, MeshMaker& maker)
 /// Wall over arches from the spring line to the lean-to's roof, on piers.
 void addArcade(const SundialPalette& palette, MeshMaker& maker)
 {
-    constexpr int kStones = 12; // of an arch
+    constexpr int kStones = 12; // stones of an arch
     const float first = -0.5F * kBays * kBay_m;
     const float radius = 0.5F * (kBay_m - kPier_m);
     const float front = kPierZ_m + 0.5F * kPier_m;

@@ -30,7 +30,7 @@ GN_FN real4 casterPlaced(real4 clip, real4 place)
 
 // How far inside a clip plane a point is, both in one space; in metres where the plane's normal is a unit. Negative: the
 // point is not there. Affine as well: write it to gl_ClipDistance, or pass it on and discard the fragment where it is
-// negative. A caster that is cut is to be cut likewise where the camera sees it.
+// negative. A caster that is cut has to be cut in the same way where the camera sees it.
 GN_FN real casterInside(real3 p, real4 clip_plane)
 {
     return dot(real3(clip_plane.x, clip_plane.y, clip_plane.z), p) + clip_plane.w;

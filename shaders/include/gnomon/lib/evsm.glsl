@@ -10,7 +10,7 @@ GN_BEGIN
 
 // Texels' slopes ask for a least variance that grows with the square of the exponent. So much of the warp at the receiver
 // is the most that a texel's depth counts for: beyond, an allowance of half of it would light deep shadow by more than
-// 1 %, and by everything at last; and slopes need it no more, for the kernel's own variance of them has grown likewise.
+// 1 %, and by everything at last; and slopes need it no more, for the kernel's own variance of them has grown as fast.
 GN_CONST real kMostWarpOfTexel = real(0.2);
 
 GN_FN real filterEvsm(MapPoint point, FilterInput f)

@@ -318,7 +318,7 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
                 MapPoint point = projectReceiver(rows, bias, r.p, r.n);
                 float here = viewVisibility(GNOMON_FILTER_NUMBER, read, rows, point, f, r.steps, r.p, r.n);
 #ifdef GNOMON_ASKS_GRAZED
-                if (GNOMON_SMOOTH && GNOMON_FILTER_NUMBER <= GNOMON_FILTER_RAYMARCH && GNOMON_AUTOMATIC_BIAS && r.grazed.sine > 0.0) {
+                if (GNOMON_SMOOTH && GNOMON_COMPARES_DEPTHS(GNOMON_FILTER_NUMBER) && GNOMON_AUTOMATIC_BIAS && r.grazed.sine > 0.0) {
                     here = min(here, grazedVisibility(read, rows, point.texel_depth, bias, f, r.grazed.p, r.grazed.sine));
                 }
 #endif

@@ -53,10 +53,10 @@ vec4 mapGather(vec2 corner, float layer, float part)
 }
 
 // The second image of some filters beside a map: blocks, or smoothies.
-#if GNOMON_COMPILES(GNOMON_FILTER_PCSS) || GNOMON_COMPILES(GNOMON_FILTER_RAYMARCH) || (defined(GNOMON_SMOOTHIES) && GNOMON_COMPILES_KERNELS)
+#if GNOMON_COMPILES_BLOCKS || (defined(GNOMON_SMOOTHIES) && GNOMON_COMPILES_KERNELS)
 layout(set = GNOMON_MAP_SET, binding = GNOMON_BLOCKS_BINDING) uniform usampler2DArray gnomon_blocks;
 #endif
-#if GNOMON_COMPILES(GNOMON_FILTER_PCSS) || GNOMON_COMPILES(GNOMON_FILTER_RAYMARCH)
+#if GNOMON_COMPILES_BLOCKS
 vec2 mapBlock(vec2 block, int level, float layer)
 {
     return blockDepths(int(texelFetch(gnomon_blocks, ivec3(block, layer), level - 1).x));

@@ -46,7 +46,7 @@ const int kLightPlace = 13; // in a draw with few views (light_visibility.glsl)
     DO(19, scale)                                                                                                      \
     DO(20, whole)                                                                                                      \
     DO(21, more)
-// The second view of a draw with two positions of the sun (kPaired) has its numbers so many places after those of the
+// The second view of a draw with two positions of the sun (kPaired) has its numbers kLaterNumbers after those of the
 // first. It is orthographic, so GpuLight::steps has the place of its w.
 const int kLaterNumbers = 8;
 const int kStepsPlace = 16 + kLaterNumbers;

@@ -3,7 +3,7 @@
 // Based on: C. Peters, R. Klein, "Moment Shadow Mapping", I3D 2015; C. Peters, C. Muenstermann, N. Wetzstein, R. Klein,
 // "Improved Moment Shadow Maps for Translucent Occluders, Soft Shadows and Single Scattering", JCGT 6(1), 2017.
 // Departure: on a slope a kernel holds the receiver's own plane from before the receiver to behind it, and four moments
-// cannot tell that from occluders: at the mean of a Gaussian the bound is 5/6. But for depths that lie alike to both
+// cannot tell that from occluders: at the mean of a Gaussian the bound is 5/6. For depths that lie alike to both
 // sides of their mean, with standard deviation s, it is 1 from mean - s on towards the light: there the polynomial whose
 // roots are the occluders has none before the receiver (k2 = (t^2 / s^2 - 1) / (kurtosis - 1) changes sign). So the
 // receiver is moved towards the light by the s that its own plane has in the kernel, which is nothing where the plane is
@@ -23,7 +23,7 @@ GN_CONST real kVarianceOfRead = real(1.0) / real(3.0);
 // Standard deviation of the receiver's own plane in the kernel, in the depth metric.
 GN_FN real planeDeviation(MapPoint point, FilterInput f, FootprintReads reads)
 {
-    real2 slope = point.depth_slope - point.w_slope * point.depth; // of depth itself, per texel
+    real2 slope = point.depth_slope - point.w_slope * point.depth; // the slope of depth itself, per texel
     real variance = f.moments.min_variance_texels * f.moments.min_variance_texels + kVarianceOfRead * exp2(real(2.0) * reads.level);
     variance = variance * dot(slope, slope);
     real along = dot(slope, reads.step);

@@ -48,7 +48,7 @@ GN_CONST real kWideTo = real(6.0);
 // No edge is narrowed further, texels: the map does not say where it is within less.
 GN_CONST real kNarrowest = real(0.8);
 
-// Where the first rays say that there is an edge, so many more find its place in a strip along it, so wide and so long.
+// Where the first rays find an edge, kStripRays more find its place in a strip along it, kStripWide by kStripLong.
 // Over such a length the steps of its texels are one line. Penumbrae that have a strip are narrow, so these rays are
 // short, and stay far below kPixelSteps.
 GN_CONST int kStripRays = 25;
@@ -101,7 +101,7 @@ struct LightRay {
     RayRun on_map;
     real from; // the metric where it begins
     real to;   // and where it ends
-    real from_w; // the map's w likewise, or both over the first one's
+    real from_w; // the map's w where it begins and where it ends, or both divided by the first
     real to_w;
     bool faces; // the light's point is above the receiver's surface
 };

@@ -17,8 +17,8 @@ struct PixelSteps {
     real4 along;
 };
 
-// A neighbour's ray may meet the plane far off or not at all. It is then taken where the plane is so many times as far
-// from the eye, or from a light with a place, as at the receiver.
+// A neighbour's ray may meet the plane far off or not at all. It is then taken where the plane is
+// kFarthestNeighbour times as far from the eye, or from a light with a place, as at the receiver.
 GN_CONST real kFarthestNeighbour = real(16.0);
 // Sine of the angle between ray and plane below which the plane counts as no steeper.
 GN_CONST real kEdgeOn = real(0.0001);

@@ -64,8 +64,8 @@ GN_FN bool sliceCounts(real depth_m, real begin_m, real end_m)
     return depth_m >= begin_m - pad && depth_m <= end_m + pad;
 }
 
-// A cascade's texel is at most so many times as fine as the base map's along each axis: its places are single precision
-// numbers of the base map, up to 2^-24 apart, which is 1/64 of a texel then where a map has 1024 of them on a side.
+// A cascade covers at least this share of the base map's side along each axis. Its places are single precision numbers
+// of the base map, up to 2^-24 apart, which is 1/64 of a texel then where a map has 1024 of them on a side.
 GN_CONST real kFinestShare = real(1.0 / 512.0);
 
 // On all sides of what a map shows it has room for rays to the rest of the light, but no more than this share of the

@@ -26,7 +26,7 @@ GN_FILTER_CONST int kBlurTableLength = 48; // weights by distance; zeros from th
 // Push constants of every pass.
 struct FilterPassPlace {
     GN_IVEC4 source;      // x, y: the tile's first texel; z: its first image layer; w: slot of its depth layers (lvsm)
-    GN_IVEC4 target;      // likewise, where the pass writes to; w: image layers of the map
+    GN_IVEC4 target;      // x, y: the first texel that is written; z: its first image layer; w: image layers of the map
     GN_IVEC4 size;        // x, y: the tile in texels, at the level that is written; z, w: in blocks
     GN_IVEC4 strips;      // the scratch image's, x: width in texels; y: how many for an image layer of the map
     GN_PLACE_VEC4 metric; // x: near / far of the view, 1 under a parallel light

@@ -22,7 +22,7 @@ struct GpuConverge {
     GN_VEC4 before_y;
     GN_VEC4 before_w;
     GN_VEC4 before_eye;
-    GN_VEC4 most;     // by light: the frames before count as so many at most; 0: they do not count
+    GN_VEC4 most;     // by light: the frames before count as at most this number; 0: they do not count
     GN_VEC4 size;     // by light: GpuLight::size.x
     GN_VEC4 pad;      // by light: mayShadow()'s, metres
     GN_VEC4 power;    // by light: confidencePower()

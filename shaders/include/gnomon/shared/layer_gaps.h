@@ -49,8 +49,8 @@ GN_FN real layerLoss(real left, real all, int bins)
     return left + (real(0.001) * all + real(1.0)) * width * width;
 }
 
-// Are two losses next to the same? Splits stay where they are while theirs is next to the least. `all` as above: what
-// layers lose for their widths alone is.
+// Are two losses nearly the same? Splits stay where they are while their loss is nearly the least. `all` is the loss by
+// (2) of a single layer over all. Layers lose up to 0.001 of it by their widths alone, so that much more is alike.
 GN_FN bool isLossAlike(real loss, real least, real all)
 {
     return loss <= real(1.125) * least + real(0.001) * all;

@@ -23,7 +23,7 @@ struct MomentRule {
     real exponent_negative;   // evsm: c-
     real moment_bias;         // msm
     real min_variance;        // variance of d', absolute
-    real min_variance_texels; // variance of d', as the square of so many texel depths; the larger one holds. msm: the
+    real min_variance_texels; // variance of d', the square of this many texel depths; the larger one holds. msm: the
                               // blur's standard deviation in texels, for the spread of a slope
     real rounding;            // evsm, warp of c+: share of a second moment that rounding may take
     real rounding_negative;   // evsm, warp of c-: the same

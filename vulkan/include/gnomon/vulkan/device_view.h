@@ -93,8 +93,8 @@ struct DeviceView {
 struct OptionalPart {
     const char* name;                    // features and formats as the specification spells them
     const char* serves;                  // its purpose
-    const char* without;                 // what happens to that where it is lacking
-    const char* instead;                 // what to do where its lack is refused; else empty
+    const char* without;                 // how it is done where this is lacking
+    const char* instead;                 // advice where its lack is refused; else empty
     bool FeatureUses::*use;              // the member that turns it on; null: it is no feature, and is used where
                                          // present
     bool (*has)(const DeviceView& view); // reads the same members as supportedFeatures(), and queue_family
