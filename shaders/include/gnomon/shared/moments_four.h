@@ -114,18 +114,17 @@ GN_FN real3 kernelAbout(Hankel h, real z0)
 GN_FN real rootBelow(real3 k)
 {
     real q = sqrt(k.y * k.y - real(4.0) * k.z * k.x);
-    real above = real(-2.0) * k.x / (k.y + q);
-    real under = (q - k.y) / (real(2.0) * k.z);
-    real s = k.y > real(0.0) ? above : under;
+    real s = k.y > real(0.0) ? real(-2.0) * k.x / (k.y + q) : (q - k.y) / (real(2.0) * k.z);
     return max(s, real(-100.0));
 }
 
 // Largest visibility of a receiver at z0 that moments allow, occluders being anywhere. `k`: kernelAbout(h, z0).
 GN_FN real hamburgerVisibility(Hankel h, real z0, real3 k)
 {
-    real apart = real(1.0) - weightAt(h, z0 + rootBelow(k));
-    real above = k.y > real(0.0) ? real(1.0) / k.x : real(1.0);
-    return k.z < real(0.0) ? apart : above;
+    if (k.z < real(0.0)) {
+        return real(1.0) - weightAt(h, z0 + rootBelow(k));
+    }
+    return k.y > real(0.0) ? real(1.0) / k.x : real(1.0);
 }
 
 // The occluders that the bound assumes: the roots below z0. For two of them it is their mean, which follows from the
@@ -135,14 +134,17 @@ GN_FN real hamburgerVisibility(Hankel h, real z0, real3 k)
 GN_FN Occluders hamburgerOccluders(Hankel h, real z0, real scale)
 {
     real3 k = kernelAbout(h, z0);
-    real root = rootBelow(k);
-    bool is_apart = k.z < real(0.0);
-    bool is_below = k.y > real(0.0);
-    real below = max(real(1.0) - real(1.0) / k.x, real(1e-6));
-    real mean = max(z0 - h.b1, real(0.0)) / (below * scale);
     Occluders o;
-    o.share = is_apart ? weightAt(h, z0 + root) : (is_below ? below : real(0.0));
-    o.height = is_apart ? -root / scale : (is_below ? mean : real(0.0));
+    o.share = real(0.0);
+    o.height = real(0.0);
+    if (k.z < real(0.0)) {
+        real root = rootBelow(k);
+        o.share = weightAt(h, z0 + root);
+        o.height = -root / scale;
+    } else if (k.y > real(0.0)) {
+        o.share = max(real(1.0) - real(1.0) / k.x, real(1e-6));
+        o.height = max(z0 - h.b1, real(0.0)) / (o.share * scale);
+    }
     return o;
 }
 
@@ -151,9 +153,10 @@ GN_FN bool rootsInside(Hankel h, real z0, real3 k)
 {
     real at_first = kernelOf(h, z0, real(-1.0));
     real at_last = kernelOf(h, z0, real(1.0));
-    bool apart = max(at_first, at_last) <= real(0.0);
-    bool beside = (k.y > real(0.0) ? at_first : at_last) >= real(0.0);
-    return k.z < real(0.0) ? apart : beside;
+    if (k.z < real(0.0)) {
+        return at_first <= real(0.0) && at_last <= real(0.0);
+    }
+    return k.y > real(0.0) ? at_first >= real(0.0) : at_last >= real(0.0);
 }
 
 // (4): visibility by points -1, 1, z0 and one more.
