@@ -307,7 +307,7 @@ const std::vector<Setting>& rows()
         {.key = "spot", .group = Group::light, .type = numbers, .form = "x,y,z,tx,ty,tz,DEG", .unit = "m, degrees", .min = -kFarthest, .max = kFarthest, .count = 7,
          .doc = "spot light: place, target, whole cone; replaces the scene's lights", .apply = applySpot},
         {.key = "point", .group = Group::light, .type = numbers, .form = "x,y,z,RANGE,...", .unit = "m", .min = -kFarthest, .max = kFarthest, .count = kNumbersOfPoint * kMostPoints, .min_count = kNumbersOfPoint,
-         .doc = "point lights, four numbers each: place and reach; replace the scene's lights", .apply = applyPoint},
+         .doc = "place and reach of each point light; replaces the scene's lights", .apply = applyPoint},
         {.key = "sun-angle", .group = Group::light, .type = real, .form = "DEG", .unit = "degrees", .min = 0, .max = 90,
          .doc = "angular diameter of directional lights; else their own, or 0.53", .subcommands = kFrames, .used = lightHasSize, .used_when = "--truth area, filter pcss or raymarch, penumbra light, filter or soften smoothies, or soften converge",
          .apply = [](Settings& s, const Value& v) { s.sun_angle_deg = v.real; }},
