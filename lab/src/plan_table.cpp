@@ -3,6 +3,8 @@
 
 #include "svg_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -142,8 +144,8 @@ DrawnBelow drawAtlas(const Plan& plan, const PlanScene& scene, const PixelRect& 
     const double scale = side / std::max({atlas.width, atlas.height, 1U});
     const std::uint32_t layers = std::min(atlas.layers, kMostLayers);
     const auto corner = [&](std::uint32_t layer) {
-        return glm::dvec2(rect.x + (layer % kAcross) * (side + kGap_px),
-                          rect.y + 10.0 + (layer / kAcross) * (side + kGap_px));
+        const std::uint32_t row = layer / kAcross;
+        return glm::dvec2(rect.x + (layer % kAcross) * (side + kGap_px), rect.y + 10.0 + row * (side + kGap_px));
     };
     DrawnBelow drawn;
     drawn.svg = textAt(rect.x, rect.y, " class=\"f\"",
@@ -166,7 +168,7 @@ DrawnBelow drawAtlas(const Plan& plan, const PlanScene& scene, const PixelRect& 
             own == scene.maps.end() ? "#4a525c" : mapColour(static_cast<std::size_t>(own - scene.maps.begin()));
         const glm::dvec2 at = corner(tile.layer) + glm::dvec2(tile.x, tile.y) * scale;
         drawn.svg += boxAt({at.x, at.y, tile.width * scale, tile.height * scale},
-                           "class=\"tile\" fill=\"" + colour + "\" fill-opacity=\"0.4\" stroke=\"" + colour + "\"");
+                           fmt::format(R"(class="tile" fill="{0}" fill-opacity="0.4" stroke="{0}")", colour));
     }
     return drawn;
 }

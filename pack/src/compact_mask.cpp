@@ -162,7 +162,8 @@ void listCompactMask(const Plan& plan, const CompactMaskRule& rule, glm::uvec2 s
     out.lights.resize(lists.lights.size());
     const Sights sights(from.camera, size_px);
     for (std::size_t tile = 0; tile < out.masked.size(); ++tile) {
-        const glm::dvec2 place(static_cast<double>(tile % out.tiles.x), static_cast<double>(tile / out.tiles.x));
+        const std::size_t row = tile / out.tiles.x;
+        const glm::dvec2 place(static_cast<double>(tile % out.tiles.x), static_cast<double>(row));
         const SightLine line = sights.through((place + 0.5) * static_cast<double>(rule.side_px));
         std::uint32_t begin = out.first[tile]; // where the next light with a map goes
         std::uint32_t end = out.first[tile + 1];
