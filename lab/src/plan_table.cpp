@@ -3,8 +3,6 @@
 
 #include "svg_text.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -167,8 +165,12 @@ DrawnBelow drawAtlas(const Plan& plan, const PlanScene& scene, const PixelRect& 
         const std::string colour =
             own == scene.maps.end() ? "#4a525c" : mapColour(static_cast<std::size_t>(own - scene.maps.begin()));
         const glm::dvec2 at = corner(tile.layer) + glm::dvec2(tile.x, tile.y) * scale;
-        drawn.svg += boxAt({at.x, at.y, tile.width * scale, tile.height * scale},
-                           fmt::format(R"(class="tile" fill="{0}" fill-opacity="0.4" stroke="{0}")", colour));
+        std::string look = "class=\"tile\" fill-opacity=\"0.4\" fill=\"";
+        look += colour;
+        look += "\" stroke=\"";
+        look += colour;
+        look += '"';
+        drawn.svg += boxAt({at.x, at.y, tile.width * scale, tile.height * scale}, look);
     }
     return drawn;
 }
