@@ -8,6 +8,7 @@
 #include <gnomon_spirv.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 namespace gnomon::vulkan {
@@ -20,11 +21,19 @@ struct MaskCode {
     std::span<const std::uint32_t> alone;
 };
 
-MaskCode codeOf(Filter module)
+/// Draws ask in every frame, so names are looked up once.
+const MaskCode& codeOf(Filter module)
 {
-    std::string name(nameOf(module));
-    std::ranges::replace(name, '-', '_');
-    return {shaderCalled("mask_" + name + ".frag"), shaderCalled("mask_" + name + "_one.frag")};
+    static const std::array<MaskCode, GNOMON_FILTER_COUNT> codes = [] {
+        std::array<MaskCode, GNOMON_FILTER_COUNT> found;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            std::string name(nameOf(static_cast<Filter>(i)));
+            std::ranges::replace(name, '-', '_');
+            found[i] = {shaderCalled("mask_" + name + ".frag"), shaderCalled("mask_" + name + "_one.frag")};
+        }
+        return found;
+    }();
+    return codes.at(static_cast<std::size_t>(module));
 }
 
 } // namespace
@@ -88,7 +97,7 @@ Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout
     constants.slices_alone = key.told_apart == pack::ToldApart::slices ? VK_TRUE : VK_FALSE;
     const Specialisation specialisation(constants);
     const bool alone = key.told_apart == pack::ToldApart::alone;
-    const MaskCode code = codeOf(key.module);
+    const MaskCode& code = codeOf(key.module);
     const ShaderModule fragment = makeShader(device_, alone ? code.alone : code.any);
     const TwoStages stages = stagesOf(alone ? vertex_one_ : vertex_, fragment, specialisation.info());
     GraphicsState state;
