@@ -37,6 +37,7 @@ Child::Child(const std::vector<std::string>& command)
     posix_spawnattr_setflags(&group, POSIX_SPAWN_SETPGROUP);
     posix_spawnattr_setpgroup(&group, 0);
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (const std::string& word : command) {
         arguments.push_back(const_cast<char*>(word.c_str())); // which posix_spawn() does not write to
     }
