@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of all choices and what is made from it; choice_rules.cpp has what does not go together. To add a
-// technique, give it a row here and a line in the table of its folder (fit/fits.cpp, partition/partitions.cpp,
-// motion/motions.cpp, kFilters below).
+// The table of all choices and what is made from it; choice_rules.cpp has what does not go together. A new technique
+// has a row here and one in the table of its folder (fit/fit.h, partition/partition.h, motion/motion.h; kFilters
+// below).
 #include <gnomon/choice_rules.h>
 
 #include <algorithm>

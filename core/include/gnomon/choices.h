@@ -6,7 +6,7 @@
 
 #include <gnomon/export.h>
 
-#include <gnomon/shared/filter_numbers.h>
+#include <gnomon/shared/filter_numbers.h> // Filter
 
 #include <cstdint>
 #include <optional>
@@ -22,23 +22,6 @@ enum class LightType : std::uint8_t { directional, spot, point };
 enum class Partition : std::uint8_t { single, cascades, sdsm, cube, paraboloid, multi, automatic };
 /// How a frustum's projection is shaped.
 enum class Fit : std::uint8_t { uniform, lispsm, lispsm_simple, tsm, psm, scene, automatic };
-/// The value that a texel stores, and the test that reads it: docs/which-technique.md.
-enum class Filter : std::uint8_t {
-    hard = GNOMON_FILTER_HARD,
-    pcf = GNOMON_FILTER_PCF,
-    pcss = GNOMON_FILTER_PCSS,
-    raymarch = GNOMON_FILTER_RAYMARCH,
-    vsm = GNOMON_FILTER_VSM,
-    lvsm = GNOMON_FILTER_LVSM,
-    esm = GNOMON_FILTER_ESM,
-    evsm = GNOMON_FILTER_EVSM,
-    msm = GNOMON_FILTER_MSM,
-    id = GNOMON_FILTER_ID,
-    depth_id = GNOMON_FILTER_DEPTH_ID,
-    volumes = GNOMON_FILTER_COUNT, // from here on filters have no shader of their own
-    smoothies,
-    automatic
-};
 /// The step that softens the mask on the screen.
 enum class Soften : std::uint8_t { none, blur, smoothies, converge };
 /// How a map follows a moving camera or sun.

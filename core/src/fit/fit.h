@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How one frustum's projection is shaped. A fit is one file and one line in fits.cpp.
+// How one frustum's projection is shaped. A fit is one file, and its declaration and row here.
 //
 // Whatever a projection does, a texel of a light's map is one ray of that light. So every map is an image of the plane
 // across the light, whose points are the rays; and two perspective images of one plane differ by a homography. That
@@ -13,6 +13,8 @@
 #include "camera_view.h"
 #include "light_space.h"
 
+#include <algorithm>
+#include <iterator>
 #include <span>
 
 namespace gnomon {
@@ -49,14 +51,27 @@ struct Warp {
 };
 using FitFunction = Warp (*)(const FitInput& input);
 
-/// Null for what is not a fit.
-[[nodiscard]] FitFunction fitFunction(Fit fit);
-
 Warp fitUniform(const FitInput& input);
 Warp fitLispsm(const FitInput& input);
 Warp fitLispsmSimple(const FitInput& input);
 Warp fitTsm(const FitInput& input);
 Warp fitPsm(const FitInput& input);
 Warp fitScene(const FitInput& input);
+
+struct FitRow {
+    Fit fit;
+    FitFunction function;
+};
+inline constexpr FitRow kFits[] = {
+    {Fit::uniform, fitUniform}, {Fit::lispsm, fitLispsm}, {Fit::lispsm_simple, fitLispsmSimple},
+    {Fit::tsm, fitTsm},         {Fit::psm, fitPsm},       {Fit::scene, fitScene},
+};
+
+/// Null for what is not a fit.
+[[nodiscard]] constexpr FitFunction fitFunction(Fit fit)
+{
+    const auto* const row = std::ranges::find(kFits, fit, &FitRow::fit);
+    return row != std::end(kFits) ? row->function : nullptr;
+}
 
 } // namespace gnomon

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a map follows a moving camera or sun. A motion is one file and one line in motions.cpp.
+// How a map follows a moving camera or sun. A motion is one file, and its declaration and row here.
 #pragma once
 
 #include "fit/projection.h"
 #include "motion/sun_steps.h"
 #include "partition/partition.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string_view>
 
 namespace gnomon {
@@ -35,10 +37,24 @@ struct MotionTraits {
 inline constexpr std::string_view kUnwarped =
     "a warped map has no texels of one size to move in whole steps, so it is drawn without warp";
 
-/// Null for what is not a motion.
-[[nodiscard]] const MotionTraits* motionTraits(Motion motion);
-
 MapFrame moveFreely(const LightRect& wanted, const MotionInput& input);
 MapFrame moveInTexels(const LightRect& wanted, const MotionInput& input);
+
+inline constexpr MotionTraits kMotions[] = {
+    {Motion::free, moveFreely, false, Stepping::none},
+    {Motion::snap, moveInTexels, true, Stepping::none},
+    // From each of its positions a sun draws the map that `snap` does.
+    {Motion::step_jump, moveInTexels, true, Stepping::jump},
+    {Motion::step_band, moveInTexels, true, Stepping::band},
+    {Motion::step_blend, moveInTexels, true, Stepping::blend},
+    {Motion::step_alternate, moveInTexels, true, Stepping::alternate},
+};
+
+/// Null for what is not a motion.
+[[nodiscard]] constexpr const MotionTraits* motionTraits(Motion motion)
+{
+    const auto* const row = std::ranges::find(kMotions, motion, &MotionTraits::motion);
+    return row != std::end(kMotions) ? row : nullptr;
+}
 
 } // namespace gnomon

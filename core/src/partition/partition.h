@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a light's receivers are divided among frustums. A partition is one file and one line in partitions.cpp.
+// How a light's receivers are divided among frustums. A partition is one file, and its declaration and row here.
 #pragma once
 
 #include "camera_view.h"
 
 #include <gnomon/planner.h>
 
+#include <algorithm>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -56,9 +58,6 @@ inline constexpr std::uint32_t kHemispheres = 2;
 [[nodiscard]] Slice wholeSlice(const Light& light);
 /// Around a light's place: 0, 1: +x, -x, then y and z.
 [[nodiscard]] Slice cubeFace(const Light& light, int face);
-/// Null for what is not a partition. That of Partition::automatic stands for all that it may choose.
-[[nodiscard]] const PartitionTraits* partitionTraits(Partition partition);
-
 /// Plane z = depth of the view, which faces away from the eye or towards it.
 [[nodiscard]] Plane depthPlane(const CameraView& view, double depth_m, bool away);
 
@@ -67,5 +66,24 @@ void partitionCascades(const PartitionInput& input, std::vector<Slice>& out);
 void partitionSdsm(const PartitionInput& input, std::vector<Slice>& out);
 void partitionCube(const PartitionInput& input, std::vector<Slice>& out);
 void partitionParaboloid(const PartitionInput& input, std::vector<Slice>& out);
+
+// clang-format off
+inline constexpr PartitionTraits kPartitions[] = {
+    {.partition = Partition::single, .divide = partitionSingle, .maps = 1},
+    {.partition = Partition::cascades, .divide = partitionCascades, .measures = true},
+    {.partition = Partition::sdsm, .divide = partitionSdsm, .measures = true, .fits_on_gpu = true},
+    {.partition = Partition::cube, .divide = partitionCube, .maps = kCubeFaces},
+    {.partition = Partition::paraboloid, .divide = partitionParaboloid, .maps = kHemispheres},
+    {.partition = Partition::multi, .measures = true, .maps = 1, .grows = true},
+    {.partition = Partition::automatic, .divide = partitionCascades, .measures = true},
+};
+// clang-format on
+
+/// Null for what is not a partition. That of Partition::automatic stands for all that it may choose.
+[[nodiscard]] constexpr const PartitionTraits* partitionTraits(Partition partition)
+{
+    const auto* const row = std::ranges::find(kPartitions, partition, &PartitionTraits::partition);
+    return row != std::end(kPartitions) ? row : nullptr;
+}
 
 } // namespace gnomon

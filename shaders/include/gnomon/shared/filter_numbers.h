@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers of gnomon::Filter, which takes them from here. CMake reads this list too: each filter has a module of the
-// mask pass. Macros, because the preprocessor chooses by them. First are filters that compare the depths of a map, then
-// those that average texels, then those that compare ids; a new one goes to its kind, and those after it move up.
+// All filters, for C++, GLSL and CMake, which makes a module of the mask pass for each. They are macros, because the
+// preprocessor chooses by them. First are filters that compare the depths of a map, then those that average texels,
+// then those that compare ids; a new one goes to its kind, and those after it move up.
 #ifndef GNOMON_FILTER_NUMBERS_H
 #define GNOMON_FILTER_NUMBERS_H
 #define GNOMON_FILTER_HARD 0
@@ -17,4 +17,29 @@
 #define GNOMON_FILTER_DEPTH_ID 10
 #define GNOMON_FILTER_COUNT 11
 
+#ifdef __cplusplus
+#include <cstdint>
+
+namespace gnomon {
+
+/// The value that a texel stores, and the test that reads it: docs/which-technique.md.
+enum class Filter : std::uint8_t {
+    hard = GNOMON_FILTER_HARD,
+    pcf = GNOMON_FILTER_PCF,
+    pcss = GNOMON_FILTER_PCSS,
+    raymarch = GNOMON_FILTER_RAYMARCH,
+    vsm = GNOMON_FILTER_VSM,
+    lvsm = GNOMON_FILTER_LVSM,
+    esm = GNOMON_FILTER_ESM,
+    evsm = GNOMON_FILTER_EVSM,
+    msm = GNOMON_FILTER_MSM,
+    id = GNOMON_FILTER_ID,
+    depth_id = GNOMON_FILTER_DEPTH_ID,
+    volumes = GNOMON_FILTER_COUNT, // from here on filters have no shader of their own
+    smoothies,
+    automatic
+};
+
+} // namespace gnomon
+#endif
 #endif
