@@ -1,5 +1,6 @@
 # Sources compiled together, which halves the time of a build from nothing and lengthens that of a change. The option
-# GNOMON_UNITY turns it on; builds for development leave it off. tools/unity_groups.py keeps apart what would clash.
+# GNOMON_UNITY turns it on, as it is where a host's build takes the library in; builds for development leave it off.
+# tools/unity_groups.py keeps apart what would clash.
 
 include(${CMAKE_CURRENT_LIST_DIR}/python.cmake)
 
