@@ -132,6 +132,17 @@ bool isAsExpected(const Scene& scene, const std::uint8_t* mask)
     return good;
 }
 
+// A light without a map is no error: it reaches everything, and its plan says why.
+void reportUnshadowed(const gnomon::Plan& plan)
+{
+    for (std::size_t light = 0; light < plan.lights.size(); ++light) {
+        const gnomon::Outcome& outcome = plan.lights[light].outcome;
+        if (!outcome.hasMap()) {
+            std::printf("light %zu casts no shadow: %s\n", light, std::string(outcome.reason).c_str());
+        }
+    }
+}
+
 int run(const std::string& folder)
 {
     const Device d;
@@ -153,11 +164,14 @@ int run(const std::string& folder)
         const auto slot = static_cast<std::uint32_t>(i) % kSlots;
         const vk::raii::CommandBuffer& commands = d.begin(slot);
         const gnomon::Plan& plan = planner.plan(scene.frame);
+        reportUnshadowed(plan);
         shadows.prepare(plan, kSize);
         casters.beginFrame(slot, plan, {*vertices.buffer, 0, nullptr, 0, *indices.buffer, 0}, scene.world_from_object);
         prepass.record(commands, scene, *vertices.buffer, *indices.buffer);
+        const gnomon::vulkan::MaskInputs inputs{kSize, *prepass.depth.view};
+        shadows.recordBounds(*commands, slot, plan, inputs);
         shadows.recordMaps(*commands, slot, plan, casters.callback());
-        shadows.recordMask(*commands, slot, plan, {kSize, *prepass.depth.view});
+        shadows.recordMask(*commands, slot, plan, inputs);
         // Here a renderer would shade with shadows.mask(); this one reads the last frame's back.
         const auto mask = shadows.mask();
         transition(commands, mask.image, vk::ImageAspectFlagBits::eColor, vk::ImageLayout(mask.layout),
