@@ -119,6 +119,9 @@ def source_differences(root: Path, choices: list[dict]) -> list[str]:
             page = value.get("page") or ""
             if value["name"] == "auto" or not page.startswith("docs/techniques/"):
                 continue
+            if not (root / page).is_file():
+                found.append(f"{page}: is missing, and `gnomon list {value['name']}` names it")
+                continue
             _, _, section = (root / page).read_text(encoding="utf-8").partition("\n## Source")
             named = AUTHOR.search(section)
             listed = AUTHOR.search(value["source"])
@@ -156,6 +159,8 @@ def gpu_differences(root: Path, write: bool) -> list[str]:
 def main() -> int:
     write = "--write" in sys.argv
     arguments = [argument for argument in sys.argv[1:] if not argument.startswith("--")]
+    if not arguments:
+        sys.exit(__doc__)
     root = Path(arguments[0]).resolve()
     found = broken_links(root) + snippet_differences(root) + gpu_differences(root, write)
     if len(arguments) > 1:

@@ -22,5 +22,5 @@ def project_files(root: Path):
         )
         for name in sorted(files):
             path = Path(folder, name)
-            if not path.is_symlink():
+            if not path.is_symlink() and name != ".git":  # a file in a worktree
                 yield path.relative_to(root)

@@ -140,9 +140,8 @@ std::optional<std::string_view> refusal(LightType light, const ShadowOptions& op
     }
     const Filter filter = filterOf(options);
     const FilterTraits* const traits = filterTraits(filter);
-    const bool has_metric =
-        traits != nullptr && (traits->filterable || filter == Filter::hard || filter == Filter::pcf);
-    if (has_metric && light == LightType::directional && options.moments.metric == DepthMetricKind::z_over_w) {
+    if (traits != nullptr && traits->has_metric && light == LightType::directional &&
+        options.moments.metric == DepthMetricKind::z_over_w) {
         return "depth-metric z-over-w is what a lamp's perspective makes of depth; a sun has none, and needs linear";
     }
     if (light != LightType::directional && hasWorldLayers(filter, options.moments) &&

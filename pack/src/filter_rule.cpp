@@ -73,7 +73,7 @@ int flagsOf(const ResolvedOptions& options)
     };
     // The basis of quantised moments is made for [-1, 1], and four moments keep more digits there.
     set(o.remap || options.filter() == Filter::msm, shared::kMomentRemap);
-    set(o.metric == DepthMetricKind::z_over_w, shared::kMomentZOverW);
+    set(options.metric() == DepthMetricKind::z_over_w, shared::kMomentZOverW);
     set(o.log_space && (options.filter() == Filter::esm || options.filter() == Filter::evsm), shared::kMomentLogSpace);
     set(options.format() == MapFormat::rgba16f || options.format() == MapFormat::rgba32f, shared::kMomentFourChannels);
     set(o.solver == MomentSolver::hausdorff, shared::kMomentHausdorff);
@@ -119,12 +119,11 @@ float snapOfBits(std::uint32_t bits)
 
 } // namespace
 
-/// Only the metric counts for hard and pcf.
+/// Only the metric counts for filters that compare depths.
 shared::MomentRule readingRuleOf(const ResolvedOptions& options)
 {
     shared::MomentRule rule = options.filterable() ? momentRuleOf(options) : shared::MomentRule{};
-    const bool compares = options.filter() == Filter::hard || options.filter() == Filter::pcf;
-    if (compares && options.moments().metric == DepthMetricKind::z_over_w) {
+    if (!options.filterable() && options.metric() == DepthMetricKind::z_over_w) {
         rule.flags = shared::kMomentZOverW;
     }
     return rule;

@@ -170,6 +170,11 @@ TEST_F(Filters, zOverWIsUndoneWhereItIsRead)
         over_w.near_over_far = r;
         const double hard = filterHard(point, input);
         const double pcf = filterPcf(point, input);
+        FilterInput points = input; // nine single reads
+        points.kernel_width = -1;
+        const double nine = filterPcf(point, points);
+        points.moments = over_w.moments;
+        points.near_over_far = r;
         const auto linear = test::map_texels;
         test::map_texels = [linear, r](int x, int y) {
             return zOverW(linear(x, y), r);
@@ -178,6 +183,7 @@ TEST_F(Filters, zOverWIsUndoneWhereItIsRead)
         EXPECT_EQ(storedMetric(over_w, glm::dvec4(1.0)).x, 1.0);
         EXPECT_EQ(filterHard(point, over_w), hard);
         EXPECT_NEAR(filterPcf(point, over_w), pcf, 1e-12);
+        EXPECT_EQ(filterPcf(point, points), nine);
         test::map_texels = linear;
     }
 }

@@ -277,6 +277,32 @@ TEST(Pcss, ASphereIsLitToItsRim)
 }
 
 // Where blocks decide a pixel, rays that know nothing of them find the same; other rays, so not to the last one.
+TEST(LightCone, IsLitBeyondTheFarPlaneWhereNothingCasts)
+{
+    Stage stage;
+    for (const int filter : {GNOMON_FILTER_RAYMARCH, GNOMON_FILTER_PCSS}) {
+        stage.filter = filter;
+        for (const glm::dvec3 n : {glm::dvec3(0.0, 0.0, 1.0), glm::normalize(glm::dvec3(0.6, 0.3, 1.0))}) {
+            stage.n = n;
+            test::map_texels = [](int, int) {
+                return 1.0;
+            }; // nothing was drawn
+            test::makeBlocks(static_cast<int>(stage.side));
+            for (int i = 0; i < 50; ++i) {
+                const glm::dvec3 p(0.03 * i, -0.02 * i, -stage.top * (1.01 + 0.02 * i));
+                EXPECT_EQ(stage.visibility(p, pixelOf(i)), 1.0) << filter << " " << i;
+            }
+            // Half a plane that casts, and nothing else.
+            test::map_texels = [&](int x, int) {
+                return x < 256 ? 0.3 : 1.0;
+            };
+            test::makeBlocks(static_cast<int>(stage.side));
+            EXPECT_EQ(stage.visibility({3.0, 0.0, -1.2 * stage.top}, pixelOf(1)), 1.0) << filter;
+            EXPECT_EQ(stage.visibility({-3.0, 0.0, -1.2 * stage.top}, pixelOf(1)), 0.0) << filter;
+        }
+    }
+}
+
 TEST(Raymarch, BlocksOnlySaveWork)
 {
     std::mt19937 rng(5);

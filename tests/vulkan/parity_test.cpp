@@ -133,6 +133,33 @@ TEST(ParityOfDepths, zOverWAnd24BitsAreThoseOfTheCpu)
     expectSilence(gpu());
 }
 
+TEST(ParityOfDepths, zOverWIsReadByEveryKernel)
+{
+    for (const PcfKernel kernel : {PcfKernel::box_3x3, PcfKernel::projected_3x3, PcfKernel::vogel}) {
+        ShadowOptions options{.technique = kPlainTechnique};
+        options.pcf.kernel = kernel;
+        options.moments.metric = DepthMetricKind::z_over_w;
+        const std::string name = "depths_z_over_w_" + std::string(nameOf(kernel));
+        SCOPED_TRACE(name);
+        expectParity(renderParity(options), options, name);
+    }
+    expectSilence(gpu());
+}
+
+// Filters that read linear depths alone get these, whatever metric others would have.
+TEST(ParityOfDepths, zOverWIsNotStoredForFiltersThatCannotReadIt)
+{
+    for (const Filter filter : {Filter::pcss, Filter::raymarch}) {
+        ShadowOptions options{.technique = kPlainTechnique};
+        options.technique.filter = filter;
+        SCOPED_TRACE(nameOf(filter));
+        const Rendered linear = renderParity(options);
+        options.moments.metric = DepthMetricKind::z_over_w;
+        EXPECT_EQ(renderParity(options).masks, linear.masks);
+    }
+    expectSilence(gpu());
+}
+
 // A point light's views stand side by side, and a pixel is one view's alone.
 TEST(ParityOfPoints, maskIsThatOfTheCpu)
 {

@@ -19,7 +19,7 @@ namespace {
 
 int depthFlags(const ResolvedOptions& options)
 {
-    return options.moments().metric == DepthMetricKind::z_over_w ? shared::kMomentZOverW : 0;
+    return options.metric() == DepthMetricKind::z_over_w ? shared::kMomentZOverW : 0;
 }
 
 float nearOverFar(const View& view, const DepthMetric& metric)

@@ -47,7 +47,7 @@ MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic)
                 !orthographic};
     }
     const bool paraboloid = options.technique().partition == Partition::paraboloid; // the rasteriser's own says nothing
-    const bool over_w = options.moments().metric == DepthMetricKind::z_over_w;      // the rasteriser's own
+    const bool over_w = options.metric() == DepthMetricKind::z_over_w;              // the rasteriser's own
     return {storage.colour, storage.depth, VK_SAMPLE_COUNT_1_BIT,
             paraboloid || (storage.depthOnly() && !orthographic && !over_w)};
 }

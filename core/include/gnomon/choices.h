@@ -109,6 +109,7 @@ struct FilterTraits {
     bool weighs_frames = false; // Soften::converge: a frame counts for more, the nearer to a texel's centre it reads
     bool ids = false;           // texels hold ids of objects (object_ids.h): receivers are drawn too, and the mask gets
                                 // the object of each pixel
+    bool has_metric = false;    // MomentOptions::metric counts; other filters read linear depths alone
     bool has_maps = true;       // false: it counts faces of shadow volumes, and a light so planned has no views
 };
 /// The row of a filter. Null for automatic, which stands for another filter (filterOf()).

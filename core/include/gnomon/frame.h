@@ -24,8 +24,10 @@ enum class ClipDepth : std::uint8_t {
 
 /// The viewer. Any projection, left- or right-handed, near or far first.
 struct Camera {
-    glm::dvec3 eye_ws{0.0};          // metres, world space
-    glm::dmat4 clip_from_world{1.0}; // from world space to clip space, y up or down
+    glm::dvec3 eye_ws{0.0}; // metres, world space
+    /// From world space to clip space, where y is -1 in row 0 of the picture: of a picture that is drawn through a
+    /// viewport of negative height, the matrix with its row of y negated.
+    glm::dmat4 clip_from_world{1.0};
     /// Depth is 1 at the near plane, 0 at the far plane and where nothing was drawn. False: the other way round. All
     /// lights get Outcome degenerate where the matrix disagrees.
     bool reversed_z = true;

@@ -313,6 +313,12 @@ public:
     [[nodiscard]] const BiasOptions& bias() const { return asked_.bias; }
     /// ShadowOptions::moments
     [[nodiscard]] const MomentOptions& moments() const { return asked_.moments; }
+    /// The depth that maps store: MomentOptions::metric with a filter that has it (FilterTraits::has_metric), else
+    /// linear.
+    [[nodiscard]] DepthMetricKind metric() const
+    {
+        return traits_->has_metric ? asked_.moments.metric : DepthMetricKind::linear;
+    }
     /// ShadowOptions::cascades
     [[nodiscard]] const CascadeOptions& cascades() const { return asked_.cascades; }
     /// ShadowOptions::tsm_segments; 1 with every fit but tsm.

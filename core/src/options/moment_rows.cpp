@@ -18,7 +18,8 @@ bool isFilterable(const ShadowOptions& o)
 }
 bool hasMetric(const ShadowOptions& o)
 {
-    return isFilterable(o) || filterOf(o) == Filter::hard || filterOf(o) == Filter::pcf;
+    const FilterTraits* const traits = filterTraits(filterOf(o));
+    return traits != nullptr && traits->has_metric;
 }
 bool isBlurred(const ShadowOptions& o)
 {

@@ -25,8 +25,8 @@ std::optional<std::string> endsRefusal(const CascadeOptions& options)
 /// Filters that compare depths keep the rasteriser's depth as it is, and undo the projection where they read it.
 std::optional<std::string> metricRefusal(const ShadowOptions& options)
 {
-    const Filter filter = filterOf(options);
-    const bool compares = filter == Filter::hard || filter == Filter::pcf;
+    const FilterTraits* const traits = filterTraits(filterOf(options));
+    const bool compares = traits != nullptr && traits->has_metric && !traits->filterable;
     if (!compares || options.moments.metric != DepthMetricKind::z_over_w) {
         return std::nullopt;
     }

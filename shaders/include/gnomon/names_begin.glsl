@@ -212,6 +212,7 @@
 #define kNoLayerBegins gnomon_kNoLayerBegins
 #define kNoSmoothie gnomon_kNoSmoothie
 #define kNormalArithmetic gnomon_kNormalArithmetic
+#define kNothingDrawn gnomon_kNothingDrawn
 #define kObjectPad gnomon_kObjectPad
 #define kOctahedralStretch gnomon_kOctahedralStretch
 #define kOneSurface gnomon_kOneSurface

@@ -212,6 +212,7 @@
 #undef kNoLayerBegins
 #undef kNoSmoothie
 #undef kNormalArithmetic
+#undef kNothingDrawn
 #undef kObjectPad
 #undef kOctahedralStretch
 #undef kOneSurface

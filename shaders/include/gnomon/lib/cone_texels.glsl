@@ -30,6 +30,9 @@ GN_FN real4 coneTexels(RayCone c, real s)
     return box;
 }
 
+// What texels hold that nothing was drawn to. Such texels light everything: receivers beyond the map's far plane too.
+GN_CONST real kNothingDrawn = real(1.0);
+
 // Is what a texel holds above the receiver's plane, at the texel's own centre? `at`: of the centre, relative to the
 // receiver. The plane is off by what the normal is, the more the farther away.
 GN_FN bool risesOverPlane(MapPoint point, real2 at, real stored)
@@ -37,7 +40,7 @@ GN_FN bool risesOverPlane(MapPoint point, real2 at, real stored)
     real w = max(real(1.0) + dot(point.w_slope, at), real(0.05));
     real plane = point.depth + dot(point.depth_slope, at);
     real doubt = point.plane_doubt * (abs(at.x) + abs(at.y)) * w;
-    return stored * w < plane - doubt;
+    return stored < kNothingDrawn && stored * w < plane - doubt;
 }
 
 // A texel beside the receiver may belong to a wall that meets the receiver's surface in a crease, and rise over the
@@ -147,7 +150,8 @@ GN_FN Surroundings lookAround(MapPoint point, FilterInput f, RayCone cone, real 
     real2 size = real2(region.texels.z - region.texels.x, region.texels.w - region.texels.y);
     if (region.nearest >= point.depth) {
         around.visibility = real(1.0);
-    } else if (region.farthest < planeNearest(point, region.texels) - kOneSurface * point.texel_depth) {
+    } else if (region.farthest < kNothingDrawn &&
+               region.farthest < planeNearest(point, region.texels) - kOneSurface * point.texel_depth) {
         around.visibility = real(0.0); // all of it is one body above the receiver
     } else if (max(size.x, size.y) <= real(3.0)) {
         around.visibility = noneRises(point, f, region.texels) ? real(1.0) : real(-1.0);

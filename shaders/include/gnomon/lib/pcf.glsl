@@ -64,7 +64,8 @@ GN_FN real pcfPoints(MapPoint point, FilterInput f)
     for (int i = 0; i < 9; ++i) {
         real2 offset = real2(real(i % 3 - 1), real(i / 3 - 1)) * spread;
         real2 texel = floor(point.texel + offset);
-        sum += compareTexel(point, texel + real2(real(0.5)) - point.texel, mapTexel(texel, f.layer, f.part));
+        real stored = storedMetric(f, real4(mapTexel(texel, f.layer, f.part))).x;
+        sum += compareTexel(point, texel + real2(real(0.5)) - point.texel, stored);
     }
     return sum / real(9.0);
 }
