@@ -43,7 +43,7 @@ const std::vector<Idle> kIdle{
      "only with partition cascades"},
     {"CascadePassOfASingleMap",
      {"render", "--partition", "single", "--set", "cascades.pass=layered"},
-     "only with filter hard or pcf and"},
+     "only with filter hard, pcf, pcss, raymarch, smoothies or auto, and"},
     {"FadeWithoutAnEnd", {"render", "--set", "fade=0.2"}, "only with max-distance above 0"},
     {"BlurNotAsked", {"render", "--set", "soften.kernel=box"}, "only with soften blur"},
     {"BlurOnACompactMask", {"render", "planes", "--soften", "blur", "--set", "compact-mask=8"}, "soften=none"},
