@@ -78,7 +78,7 @@ struct Stage {
 
 glm::dvec2 pixelOf(int i)
 {
-    return {i % 61 + 0.5, i / 61 + 0.5};
+    return glm::dvec2(i % 61, i / 61) + 0.5;
 }
 
 /// The share of a disc on one side of a line at t radii from its centre.
