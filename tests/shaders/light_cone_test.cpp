@@ -276,7 +276,6 @@ TEST(Pcss, ASphereIsLitToItsRim)
     expectASphereIsLit(GNOMON_FILTER_PCSS);
 }
 
-// Where blocks decide a pixel, rays that know nothing of them find the same; other rays, so not to the last one.
 TEST(LightCone, IsLitBeyondTheFarPlaneWhereNothingCasts)
 {
     Stage stage;
@@ -284,9 +283,9 @@ TEST(LightCone, IsLitBeyondTheFarPlaneWhereNothingCasts)
         stage.filter = filter;
         for (const glm::dvec3 n : {glm::dvec3(0.0, 0.0, 1.0), glm::normalize(glm::dvec3(0.6, 0.3, 1.0))}) {
             stage.n = n;
-            test::map_texels = [](int, int) {
+            test::map_texels = [](int, int) { // nothing was drawn
                 return 1.0;
-            }; // nothing was drawn
+            };
             test::makeBlocks(static_cast<int>(stage.side));
             for (int i = 0; i < 50; ++i) {
                 const glm::dvec3 p(0.03 * i, -0.02 * i, -stage.top * (1.01 + 0.02 * i));
@@ -303,6 +302,7 @@ TEST(LightCone, IsLitBeyondTheFarPlaneWhereNothingCasts)
     }
 }
 
+// Where blocks decide a pixel, rays that know nothing of them find the same; other rays, so not to the last one.
 TEST(Raymarch, BlocksOnlySaveWork)
 {
     std::mt19937 rng(5);

@@ -30,7 +30,7 @@ GN_FN real4 coneTexels(RayCone c, real s)
     return box;
 }
 
-// What texels hold that nothing was drawn to. Such texels light everything: receivers beyond the map's far plane too.
+// A texel that nothing was drawn to holds this. It blocks nobody, not even receivers beyond the map's far plane.
 GN_CONST real kNothingDrawn = real(1.0);
 
 // Is what a texel holds above the receiver's plane, at the texel's own centre? `at`: of the centre, relative to the

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// All filters, for C++, GLSL and CMake, which makes a module of the mask pass for each. They are macros, because the
-// preprocessor chooses by them. First are filters that compare the depths of a map, then those that average texels,
-// then those that compare ids; a new one goes to its kind, and those after it move up.
+// All filters, for C++, GLSL and CMake. Filters that read maps in the mask pass have a number as a macro, because the
+// preprocessor chooses by it; CMake makes modules by these. First are filters that compare the depths of a map, then
+// those that average texels, then those that compare ids. A new one goes to its kind, and those after it move up.
 #ifndef GNOMON_FILTER_NUMBERS_H
 #define GNOMON_FILTER_NUMBERS_H
 #define GNOMON_FILTER_HARD 0
