@@ -8,6 +8,7 @@ usage: check_docs.py [--write] ROOT [GNOMON]
 - README's C++ block is what tests/docs/readme_snippet.cpp has between "README begin" and "README end";
 - with the program GNOMON: the table of docs/cli.md is what its declarations make (--write puts it there), and every
   option in a `gnomon` command of a document is one of them;
+- what sources name as [drivers: NAME] are the lines of docs/drivers.md, and each line is named;
 - docs/gpus.md is what tools/gpu_report.py makes of docs/gpus/*.json (--write puts it there);
 - the source that `gnomon list` gives of a technique is the first that its page names.
 Exit status 1 when something is not so.
@@ -24,6 +25,9 @@ import gpu_report
 from sources import project_files
 
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
+HABIT = re.compile(r"\[drivers: ([\w-]+)\]")
+HABIT_LINE = re.compile(r"^\| `([\w-]+)` \|", re.MULTILINE)
+SHADERS_AND_SOURCES = {".cpp", ".h", ".glsl", ".vert", ".frag", ".comp"}
 COMMAND = re.compile(r"(?:build/)?gnomon (render|compare|metrics|plan|bench|list)\b([^`\n]*)")
 # Options of the command line itself, which are no settings.
 PLAIN_OPTIONS = {"set", "preset", "json", "help", "version", "o"}
@@ -156,6 +160,19 @@ def gpu_differences(root: Path, write: bool) -> list[str]:
     return []
 
 
+def habit_differences(root: Path) -> list[str]:
+    """Habits of drivers: what sources obey, beside what the page tells."""
+    page = root / "docs/drivers.md"
+    told = set(HABIT_LINE.findall(page.read_text(encoding="utf-8"))) if page.is_file() else set()
+    found, obeyed = [], set()
+    for file in project_files(root):
+        if file.suffix in SHADERS_AND_SOURCES:
+            named = set(HABIT.findall((root / file).read_text(encoding="utf-8")))
+            obeyed |= named
+            found += [f"{file}: docs/drivers.md has no line {name}" for name in sorted(named - told)]
+    return found + [f"docs/drivers.md: no source names {name}" for name in sorted(told - obeyed)]
+
+
 def main() -> int:
     write = "--write" in sys.argv
     arguments = [argument for argument in sys.argv[1:] if not argument.startswith("--")]
@@ -163,6 +180,7 @@ def main() -> int:
         sys.exit(__doc__)
     root = Path(arguments[0]).resolve()
     found = broken_links(root) + snippet_differences(root) + gpu_differences(root, write)
+    found += habit_differences(root)
     if len(arguments) > 1:
         listed = listed_by(arguments[1])
         settings = {setting["key"]: setting for setting in listed["settings"]}

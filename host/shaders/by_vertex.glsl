@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers that are the same for all fragments of a draw, from the vertex shader. lavapipe 22.3 loads a uniform in a
-// fragment shader with a branch for each of its numbers, for every few pixels: half of the time of such a shader. It
-// loads a flat attribute once for a triangle. Other devices read uniforms.
+// Numbers that are the same for all fragments of a draw, from the vertex shader in software
+// [drivers: uniforms]. Other devices read uniforms.
 #ifndef HOST_BY_VERTEX_GLSL
 #define HOST_BY_VERTEX_GLSL
 

@@ -14,8 +14,7 @@ layout(location = kScreenPixel) in vec2 place_in;
 #define FRAME_SKYLIGHT(I) SCREEN_NUMBER(kScreenSky + (I), skylight[I])
 #define FRAME_SKY(I) SCREEN_NUMBER(kScreenSky + (I), sky[I]) // for the pass that draws the sky
 
-// The pixel's own texel of an image that is as large as the picture and has a nearest sampler. llvmpipe 22.3 fetches with
-// a mip level for each lane, which takes three times as long as a sample does.
+// The pixel's own texel of an image that is as large as the picture and has a nearest sampler [drivers: mip].
 vec4 texelHere(sampler2D image)
 {
     return kInSoftware ? textureLod(image, place_in, 0.0) : texelFetch(image, ivec2(gl_FragCoord.xy), 0);

@@ -94,8 +94,7 @@ void ForwardShadows::describe(std::uint32_t slot, const Plan& plan, const vulkan
 void ForwardShadows::writeSet(const Slot& slot, const vulkan::ShadowRenderer& renderer) const
 {
     const vulkan::ImageRef maps = renderer.maps();
-    // Most filters have no blocks, and most frames no tints. lavapipe 22.3 crashes on a descriptor that was never
-    // written.
+    // Most filters have no blocks, and most frames no tints [drivers: unwritten].
     const auto orMaps = [&maps](const vulkan::ImageRef& image) {
         return image.view != VK_NULL_HANDLE ? image : maps;
     };

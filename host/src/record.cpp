@@ -87,7 +87,7 @@ void FrameRenderer::Impl::recordGBuffer(VkCommandBuffer cmd)
     const VkRenderingAttachmentInfo depth = attachment(targets.depth, kDepthRead.layout, VK_ATTACHMENT_LOAD_OP_LOAD);
     beginRendering(cmd, targets.drawn, std::span(colours).first(count), &depth);
     setViewport(cmd, targets.drawn);
-    // llvmpipe 22.3 crashes on a descriptor set before the first graphics pipeline, and nothing opaque may be in sight.
+    // A pipeline before the first set [drivers: set-first], for nothing opaque may be in sight.
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.pipelines.sky);
     profiler.addDraws(draws.recordOpaque(cmd, scene.pipelines, *gbuffer.pipelines, frame_set));
     vkCmdEndRendering(cmd);

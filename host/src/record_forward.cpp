@@ -43,7 +43,7 @@ void FrameRenderer::Impl::chooseForward(const ShadedBy& by)
             std::ranges::all_of(plan->views, [](const View& view) { return view.projection.orthographic; });
         facts.technique = pack::techniqueConstants(resolved);
         facts.technique.few_views = pack::fewViewsOf(*plan);
-        // lavapipe 22.3 crashes on other filters' shaders where the one view is at a fixed place of uniforms.
+        // The one view would be at a fixed place of uniforms [drivers: fixed-place].
         if (facts.technique.few_views == 1 && resolved.filter() != Filter::hard && resolved.filter() != Filter::pcf) {
             facts.technique.few_views = 0;
         }

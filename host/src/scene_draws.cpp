@@ -164,7 +164,7 @@ std::uint32_t SceneDraws::recordOpaque(VkCommandBuffer commands, const Pipelines
         }
         const bool first = bound == VK_NULL_HANDLE;
         bind(commands, of_kinds[static_cast<std::size_t>(batch.kind)].of(batch), bound);
-        if (first) { // not before the pipeline: llvmpipe 22.3 crashes on a set that no pipeline was ever bound for
+        if (first) { // not before the pipeline [drivers: set-first]
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout.get(), 0, 1,
                                     &frame_set, 0, nullptr);
             if (maps_set != VK_NULL_HANDLE) {

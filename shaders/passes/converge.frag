@@ -10,7 +10,7 @@
 #include "gnomon/shared/octahedral.h"
 
 // The camera stands and nothing moved: then a pixel is joined with itself alone, and what follows for others need not be
-// compiled. lavapipe executes both sides of every branch whose condition is not a constant.
+// compiled [drivers: both-sides].
 layout(constant_id = 0) const bool kAtRest = false;
 
 layout(set = 0, binding = 0, std140) uniform Constants
@@ -82,7 +82,7 @@ Seen seenAt(ivec3 at)
     return Seen(vec4(x.x, y.x, z.x, w.x), vec4(x.y, y.y, z.y, w.y));
 }
 
-// Uniforms of the pass, read once: lavapipe 22.3 loads a uniform again for each lane and each use.
+// Uniforms of the pass, read once [drivers: uniforms].
 vec2 size_px;
 bool has_normals;
 
@@ -115,7 +115,7 @@ void gather(ivec3 at, float share, float expected_m, vec3 normal, inout Gathered
 // one in each frame would blur the mean without end.
 vec4 cubicMean(ivec3 first, vec2 part, Gathered found)
 {
-    // lavapipe executes both sides of a branch, but ends a loop that no pixel needs.
+    // A loop, not a branch [drivers: both-sides].
     int pixels = any(greaterThan(found.most - found.least, vec4(0.004))) ? 16 : 0;
     if (pixels == 0) {
         return found.sum;

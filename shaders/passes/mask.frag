@@ -10,7 +10,7 @@
 #include "gnomon/shared/screen_blur.h"
 #include "gnomon/shared/smooth_surface.h"
 
-// Not read from buffers: lavapipe executes both sides of every branch whose condition is not a constant.
+// Constants, and not read from buffers [drivers: both-sides].
 #include "gnomon/technique_constants.glsl" // 0 to 8
 layout(constant_id = 9) const bool kHasNormals = true;
 #ifdef GNOMON_ONE_VIEW
@@ -178,7 +178,7 @@ void main()
         centre = vec2(pixel) + 0.5;
     }
     float depth = GNOMON_SCREEN_TEXEL(depths, pixel).r;
-    // Undrawn pixels stay lit. Nor does lavapipe compile the shader twice, where no pixel is known to be drawn.
+    // Undrawn pixels stay lit [drivers: undrawn].
     if (depth == numbers.screen.fade.z) {
         discard;
     }

@@ -20,6 +20,8 @@ TREE = {
                    "| `--map-size` | `2048` | side (texels; 16 to 16384) | render, plan |\n"
                    "| `--set pcf.kernel=` | `3x3` | kernel (one of 2x2 3x3; with filter pcf) | render |\n"
                    "<!-- options end -->\n",
+    "docs/drivers.md": "| Name | Driver |\n|---|---|\n| `mip` | one |\n",
+    "core/a.cpp": "// A texel [drivers: mip].\n",
     "docs/techniques/vsm.md": "# vsm\n\n## Source\nSteps: W. Donnelly, A. Lauritzen, \"Variance\", 2006. A. Marinescu, 2011.\n",
     "docs/techniques/auto.md": "# auto\n\n## Source\nD. B. Lloyd, 2006.\n",
 }
@@ -46,6 +48,8 @@ FAULTS = [
     ("docs/cli.md", "<!-- options begin -->\n", "", "no table"),
     ("docs/cli.md", "--map-size 512", "--map-width 512", "no option map-width"),
     ("docs/cli.md", "--map-size 512", "--set map-widht=512", "no option map-widht"),
+    ("core/a.cpp", "drivers: mip", "drivers: mop", "docs/drivers.md has no line mop"),
+    ("core/a.cpp", " [drivers: mip]", "", "no source names mip"),
     ("docs/techniques/vsm.md", "W. Donnelly, A. Lauritzen, \"Variance\", 2006. ", "", "its first source is Marinescu"),
     ("docs/techniques/vsm.md", "## Source", "## From", "its first source is none"),
 ]

@@ -112,7 +112,7 @@ std::uint32_t CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraw
     } else if (pipeline != bound) {
         device.vk.CmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
         if (bound == VK_NULL_HANDLE && key.layered && key.placed) {
-            bindPlaces(pass); // not before the pipeline: llvmpipe 22.3 crashes on a set that none was ever bound for
+            bindPlaces(pass); // not before the pipeline [drivers: set-first]
         }
         if (bound == VK_NULL_HANDLE && key.classic.behind_first) {
             device.vk.CmdBindDescriptorSets(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.layout(),

@@ -256,7 +256,7 @@ Pipeline CasterPipelines::make(const CasterPipelineKey& key)
     state.tints = formats.blended;
     state.depth_format = formats.depth;
     state.samples = formats.samples;
-    // The shader's inputs say so already (caster.frag); Mesa 22.3 wants to hear it here.
+    // The shader's inputs say so already (caster.frag) [drivers: per-sample].
     state.shade_samples = formats.write_frag_depth && per_sample;
     state.cull = key.cull;
     if (key.clamp) {

@@ -22,7 +22,7 @@ struct FilterConstants {
 };
 [[nodiscard]] FilterConstants filterConstants(const ResolvedOptions& options);
 
-/// The bindings of one set. lavapipe 22.3 crashes on descriptors that were never written, so all are always given.
+/// The bindings of one set. All are always given [drivers: unwritten].
 struct FilterBindings {
     VkImageView source = VK_NULL_HANDLE;
     bool source_is_depth = false;        // then in SHADER_READ_ONLY_OPTIMAL, else in GENERAL

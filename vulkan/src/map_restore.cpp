@@ -39,7 +39,7 @@ void MapRestorer::setKept(VkImageView depths, VkImageView colours)
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     sets_.reset(1); // frames in flight may use the set that was there
     set_ = sets_.take("restore");
-    // Lavapipe 22.3 crashes on a descriptor that was never written even if no shader names it.
+    // Every descriptor is written [drivers: unwritten].
     const std::array writes{
         DescriptorSets::image(0, sampler_.get(), depths != VK_NULL_HANDLE ? depths : colours, kRead),
         DescriptorSets::image(1, sampler_.get(), colours != VK_NULL_HANDLE ? colours : depths, kRead)};

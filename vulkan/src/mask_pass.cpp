@@ -197,9 +197,8 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
 {
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const VkSampler sampler = nearest_.get();
-    // The shaders name the normals whether they read them or not, and lavapipe 22.3 crashes on a descriptor that was
-    // never written even if no shader names it; so what is absent is filled with the depth, and ids and blocks, which
-    // are whole numbers, with an image of their own.
+    // The shaders name the normals whether they read them or not [drivers: unwritten]. The depth fills in for what is
+    // absent; an image of their own does for ids and blocks, which are whole numbers.
     const auto orDepth = [&](std::uint32_t binding, VkImageView view) {
         return view != VK_NULL_HANDLE ? DescriptorSets::image(binding, sampler, view, kRead)
                                       : DescriptorSets::image(binding, sampler, inputs.depth, inputs.depth_layout);

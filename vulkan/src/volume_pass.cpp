@@ -228,7 +228,7 @@ void VolumePassRecorder::writeSets(std::uint32_t slot, const MaskInputs& inputs,
 {
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const VkSampler sampler = nearest_.get();
-    // Every descriptor is written, because lavapipe 22.3 crashes on one that never was.
+    // Every descriptor is written [drivers: unwritten].
     const auto orDepth = [&](std::uint32_t binding, VkImageView view) {
         return view != VK_NULL_HANDLE ? DescriptorSets::image(binding, sampler, view, kRead)
                                       : DescriptorSets::image(binding, sampler, inputs.depth, inputs.depth_layout);

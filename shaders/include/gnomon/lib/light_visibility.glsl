@@ -305,7 +305,7 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
     bool is_first = true;
     float share = nextShare(s, true, r, view);
     // Nearly every pixel is in a single view: in software none branches, and pixels outside discard their result.
-    // lavapipe 22.3 crashes on the branch where all that it depends on is at fixed places of uniforms.
+    // It must not depend on uniforms at fixed places alone [drivers: fixed-place].
     const bool is_alone = GNOMON_FEW_VIEWS == 1 && GNOMON_IN_SOFTWARE;
     bool more = false;
     if (is_alone || share > 0.0 || !GNOMON_IN_SOFTWARE) {

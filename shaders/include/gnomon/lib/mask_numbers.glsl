@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// GLSL only: what is the same for all of the mask's pixels and may come to them from the vertex shader. lavapipe 22.3
-// loads a uniform in a fragment shader once for each lane, some 28 instructions, and takes as long to compile that as to
-// execute it; in a vertex shader, and of an attribute that is flat, once.
+// GLSL only: what is the same for all of the mask's pixels and may come to them from the vertex shader
+// [drivers: uniforms].
 #ifndef GNOMON_MASK_NUMBERS_GLSL
 #define GNOMON_MASK_NUMBERS_GLSL
 

@@ -4,9 +4,8 @@
 #ifndef GNOMON_SCREEN_SURFACE_GLSL
 #define GNOMON_SCREEN_SURFACE_GLSL
 
-// A texel of an image that is as large as the screen. llvmpipe 22.3 fetches with a mip level for each lane, three times
-// as many instructions as a nearest sampler takes, so a pass that knows that its samplers are such and that it is drawn
-// in software may define GNOMON_SURFACE_SAMPLED, a constant.
+// A texel of an image that is as large as the screen. A pass whose samplers are nearest and that is drawn in
+// software may define GNOMON_SURFACE_SAMPLED, a constant [drivers: mip].
 #ifndef GNOMON_SURFACE_SAMPLED
 #define GNOMON_SURFACE_SAMPLED false
 #endif

@@ -11,7 +11,7 @@
 #include "encoders.glsl"
 #include "filter_pass.glsl"
 
-// Copies of push constants. llvmpipe reads push constants anew in each turn of a loop, lane by lane.
+// Copies of push constants [drivers: uniforms].
 ivec2 first_of_tile = place.source.xy;
 ivec2 last_in_tile = place.size.xy - 1;
 float near_over_far = place.metric.x;

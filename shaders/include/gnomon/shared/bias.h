@@ -7,8 +7,8 @@
 #define GNOMON_BIAS_H
 #include "portability.h"
 // Whether all maps are orthographic, a constant: then w is 1 everywhere. The includer may know. Both cases are worked
-// out and one is taken by mix(), without a branch: compilers that fold the constant drop the other one, and
-// SwiftShader, which does not, takes minutes and gigabytes for the branches.
+// out and one is taken by mix(), without a branch, so compilers that fold the constant drop the other one
+// [drivers: unfolded].
 #ifndef GNOMON_ORTHOGRAPHIC_ONLY
 #define GNOMON_ORTHOGRAPHIC_ONLY false
 #endif
