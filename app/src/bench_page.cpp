@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench_page.h"
+#include "report_pages.h"
 
 #include "report_html.h"
 

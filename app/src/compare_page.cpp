@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Text is made here and read without scripts; pages/page.js puts in pictures and charts.
-#include "compare_page.h"
+#include "report_pages.h"
 
 #include "compare_text.h"
 #include "report_html.h"

@@ -2,13 +2,13 @@
 #include "compare_scenes.h"
 
 #include "compare_folder.h"
-#include "compare_page.h"
 #include "compare_table.h"
 #include "compare_text.h"
-#include "findings.h"
 #include "lab/report.h"
 #include "report_html.h"
+#include "report_pages.h"
 #include "streams.h"
+#include "subcommands.h"
 #include "worlds/worlds.h"
 
 #include <gnomon/error.h>

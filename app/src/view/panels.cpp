@@ -2,7 +2,7 @@
 #include "view/panels.h"
 
 #include "app/preset.h"
-#include "shot_camera.h"
+#include "shot_parts.h"
 #include "worlds/worlds.h"
 
 #include <gnomon/choices.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of a comparison's report.
+// The pages of reports.
 #pragma once
 
 #include "result_json.h"
@@ -14,5 +14,8 @@ namespace gnomon::app {
 
 /// The colours of pictures by their meaning: scales from end to end, and classes.
 [[nodiscard]] Json pageLegends();
+
+/// The page of a bench's JSON, made like comparePage().
+[[nodiscard]] std::string benchPage(const Json& result);
 
 } // namespace gnomon::app
