@@ -187,6 +187,12 @@ inline constexpr std::uint32_t kDraw = kPictures | kCompare;         // all that
 inline constexpr std::uint32_t kFrames = kDraw | kPlan;              // all that take a scene
 inline constexpr std::uint32_t kMoving = kFrames & ~kView;           // all that take --frames
 
+/// A value that completion offers for a text.
+struct Offer {
+    std::string_view value;
+    std::string_view doc; // one line; may be empty
+};
+
 struct Setting {
     std::string_view key;
     SettingGroup group = SettingGroup::picture;
@@ -215,7 +221,7 @@ struct Setting {
     std::string_view of_lights;              // the types of light that it is about, blanks between
     /// For completion of a text: values that it may have, names in the scene, and files by their extensions: "png exr".
     /// "/": folders alone.
-    std::vector<std::string_view> (*offers)() = nullptr;
+    std::vector<Offer> (*offers)() = nullptr;
     std::vector<std::string> (*names_in)(const scene::Scene&) = nullptr;
     std::string_view files;
     void (*apply)(Settings&, const SettingValue&) = nullptr;

@@ -71,8 +71,11 @@ void addKeys(Answer& answer, bool (*is_one)(const Setting&, const Subcommand&))
 /// Adds the values that the setting itself lists, without looking at the scene.
 void addValues(Answer& answer, const Setting& setting)
 {
-    const auto list = setting.choices != nullptr ? setting.choices : setting.offers;
-    for (const std::string_view name : list != nullptr ? list() : std::vector<std::string_view>()) {
+    for (const Offer& offer : setting.offers != nullptr ? setting.offers() : std::vector<Offer>()) {
+        answer.add(offer.value, offer.doc);
+    }
+    for (const std::string_view name :
+         setting.choices != nullptr ? setting.choices() : std::vector<std::string_view>()) {
         const ChoiceValue* const row = findChoice(setting.key, name);
         answer.add(name, row != nullptr ? row->summary : std::string_view());
     }
@@ -156,7 +159,7 @@ void addValueOf(Answer& answer, std::string_view key)
     } else if (key == "techniques") {
         answer.keepUpTo(answer.start.rfind(','));
         if (answer.before.empty()) {
-            answer.add("all", "every filter, and pcf with every kernel");
+            addValues(answer, *setting);
         }
         addTechniqueParts(answer);
     } else if (key == "sweep") {

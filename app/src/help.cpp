@@ -114,8 +114,7 @@ std::string helpText(const Subcommand* subcommand)
             continue;
         }
         // The choices share a line: their values fill `gnomon list`.
-        if (setting.group == SettingGroup::technique && setting.default_text.size() > 2 &&
-            setting.type == SettingType::choice) {
+        if (setting.group == SettingGroup::technique && (isChoice(setting.key) || setting.key == "quality")) {
             choices += (choices.empty() ? "" : " ") + fmt::format("--{}", setting.key);
             continue;
         }

@@ -166,7 +166,7 @@ std::string choiceText(const Topic& topic)
         fmt::format("{}, a choice: {}\n", topic.choice,
                     setting == nullptr ? "what casts; each light of the scene is one of them" : setting->doc);
     for (const Topic& row : topics()) {
-        text += row.value != nullptr && row.choice == topic.choice ? lineOf(row) : "";
+        text += row.value != nullptr && row.choice == topic.choice ? entryText(row.name, row.summary, 20) : "";
     }
     return setting == nullptr ? text
                               : text + fmt::format("Without a word it is {}. `gnomon list VALUE` has settings, rules "

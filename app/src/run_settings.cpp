@@ -201,6 +201,15 @@ void applySweep(Settings& s, const Value& v)
     s.sweep = Sweep{std::string(setting.key), from, to, static_cast<std::uint32_t>(*steps), logarithmic};
 }
 
+std::vector<Offer> offeredPaths()
+{
+    std::vector<Offer> offers;
+    for (const std::string_view name : pathNames()) {
+        offers.push_back({name, ""});
+    }
+    return offers;
+}
+
 const std::vector<Setting>& rows()
 {
     static const std::vector<Setting> table{
@@ -226,7 +235,7 @@ const std::vector<Setting>& rows()
          .doc = "frames per second", .subcommands = kMoving, .used = [](const Settings& s) { return s.frames.has_value(); },
          .used_when = "--frames", .apply = [](Settings& s, const Value& v) { s.fps = v.real; }},
         {.key = "path", .group = Group::time, .type = text, .form = "NAME|FILE", .doc = "pan, orbit, dolly, zoom, day or keys: what moves over --frames", .subcommands = kMoving,
-         .offers = [] { return Names(pathNames().begin(), pathNames().end()); }, .files = "json", .apply = [](Settings& s, const Value& v) { s.path = v.text; }},
+         .offers = offeredPaths, .files = "json", .apply = [](Settings& s, const Value& v) { s.path = v.text; }},
         {.key = "path.speed", .group = Group::time, .type = real, .form = "FACTOR", .default_text = "1", .min = 0.001, .max = 1000,
          .doc = "how many seconds of the path pass in one", .subcommands = kMoving, .own_option = false, .used = [](const Settings& s) { return !s.path.empty(); }, .used_when = "--path",
          .apply = [](Settings& s, const Value& v) { s.path_speed = v.real; }},
@@ -239,7 +248,7 @@ const std::vector<Setting>& rows()
         {.key = "seed", .group = Group::run, .type = integer, .form = "N", .default_text = "1", .min = 0, .max = 9e15,
          .doc = "everything random", .apply = [](Settings& s, const Value& v) { s.seed = static_cast<std::uint64_t>(v.integer); }},
         {.key = "gpu", .group = Group::run, .type = text, .form = "NAME", .doc = "part of a GPU's name, or software; else the first real one",
-         .used = draws, .used_when = "something to draw", .offers = [] { return Names{"software"}; }, .apply = [](Settings& s, const Value& v) { s.gpu = v.text; }},
+         .used = draws, .used_when = "something to draw", .offers = [] { return std::vector<Offer>{{"software", "the software rasteriser"}}; }, .apply = [](Settings& s, const Value& v) { s.gpu = v.text; }},
         {.key = "validate", .group = Group::run, .type = flag, .default_text = "0", .doc = "Vulkan validation; a message makes the run fail",
          .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.validate = v.flag; }},
         {.key = "strict", .group = Group::run, .type = flag, .default_text = "0", .doc = "refuse options without effect, which are told else",
@@ -258,7 +267,7 @@ const std::vector<Setting>& rows()
         {.key = "draw", .group = Group::result, .type = text, .form = "FILE", .doc = "a picture of the light's maps instead of the JSON (.svg)",
          .subcommands = kPlan, .command_line_only = true, .files = "svg", .apply = applyDraw},
         {.key = "techniques", .group = Group::result, .type = text, .form = "LIST|@FILE", .doc = "which ones: hard,pcf+pcf.kernel=5x5,... or all; @FILE: a line each",
-         .subcommands = kBench | kCompare, .repeatable = true, .separator = ",", .apply = applyTechniques},
+         .subcommands = kBench | kCompare, .repeatable = true, .separator = ",", .offers = [] { return std::vector<Offer>{{"all", "every filter, and pcf with every kernel"}}; }, .apply = applyTechniques},
         {.key = "repetitions", .group = Group::result, .type = integer, .form = "N", .default_text = "11", .min = 1, .max = 100000,
          .doc = "timed frames of each technique", .subcommands = kBench | kCompare,
          .apply = [](Settings& s, const Value& v) { s.repetitions = static_cast<std::uint32_t>(v.integer); }},

@@ -104,7 +104,7 @@ Setting biasSetting()
     };
     setting.used_when = findOption("bias.constant")->used_when;
     setting.offers = [] {
-        return Names{"auto", "none"};
+        return std::vector<Offer>{{"auto", ""}, {"none", ""}};
     };
     setting.apply = applyBias;
     return setting;
