@@ -229,7 +229,7 @@ std::string textNamed(std::string_view name)
                                  suggestion(name, names)));
 }
 
-/// What is refused; with a name, what is refused of the values of that name, each rule once.
+/// All that is refused; with a name, the rules of the values of that name, each once.
 Json refusedJson(std::string_view name)
 {
     Json rows = Json::array();

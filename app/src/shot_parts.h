@@ -13,7 +13,7 @@
 
 namespace gnomon::app {
 
-// Camera: where the eye stands.
+// The camera, and an outlook where a scene has none.
 
 /// Sets eye and camera from the settings and the state. Throws UsageError when the named camera is not there.
 void placeEye(Shot& shot, const Settings& settings);
@@ -31,12 +31,13 @@ void placeEye(Shot& shot, const Settings& settings);
 /// The direction in which the sun's light travels, unit.
 [[nodiscard]] glm::dvec3 sunOf(const Outlook& outlook);
 
-/// The objects without the largest ones, where all of the others together are small beside each of those, lie amid them
-/// and have more triangles. A view of such a whole scene would show only its surroundings. In order of size.
+/// The objects without the surroundings of a scene's detail: a wide ground, a sky's dome, a backdrop. These are the
+/// largest ones, where all of the others together are small beside each of those, lie amid them and have more
+/// triangles. A view of such a whole scene would show only its surroundings. In order of size.
 [[nodiscard]] std::vector<const scene::Object*> withoutSurroundings(const scene::Scene& scene,
                                                                     std::vector<const scene::Object*> objects);
 
-// Lights.
+// The lights.
 
 /// Keeps the lights in sight (host::lightsInSight), where there are more than a frame can have. It comes after camera
 /// and lights are placed.
@@ -53,14 +54,15 @@ void chooseLights(Shot& shot, const Settings& settings);
 [[nodiscard]] bool holdsSurface(const scene::Scene& scene, const scene::State& state, const glm::dvec3& centre_ws,
                                 double radius_m);
 
-/// Adds a notice for each object, or node of several, that holds all of a light back: nothing else that receives shadow
+/// Adds a notice for each object, or node of several, that holds all of a light back, as a dome around the scene does,
+/// or a bulb around its lamp: nothing else that receives shadow
 /// within the light's reach is lit at any of a few hundred points. Around a lamp it also stands in each of a hundred
 /// directions; under a sun it does so in most that lead up, and its bounds hold the middles of all that receives. A
 /// room does not count, because things in it are lit; nor does a shade with openings, nor an object around both camera
 /// and lamp. Searches for a tenth of a second at most.
 void noteTakenLight(Shot& shot);
 
-// Ground.
+// A ground for models that have none, and the way up of a model.
 
 /// The share of a model, seen from above, with a floor of its own: where the lowest surface that faces up is the lowest
 /// surface, or only a thin slab above it. [0, 1]; 0 where there is nothing to see from above. `up` is 1 for y, 2 for z.
@@ -79,7 +81,7 @@ void standUp(scene::Scene& scene);
 /// A disc under `model_ws` that fades into the sky. Its node is the scene's last.
 void addGround(scene::Scene& scene, const Aabb& model_ws);
 
-// What is refused, and what people are told.
+// Refusals and notices.
 
 /// Throws Error when scene, camera or a light that casts is beyond the limits of gnomon/world_range.h: single precision
 /// has no room for its shadows, and it is not drawn without them.

@@ -37,10 +37,10 @@ struct Fact {
     std::string_view name;
     std::string text; // empty: there is nothing to say
 };
-/// Reads the scene of a world, to name its views and lights.
+/// Makes a world, to name its views and lights. Precondition as for pageOf().
 [[nodiscard]] std::vector<Fact> factsOf(const Topic& topic);
-/// "docs/techniques/msm.md", in the source tree and where the documents are installed. Of a value, setting, preset or
-/// world.
+/// "docs/techniques/msm.md", in the source tree and where the documents are installed. Precondition: a value, a
+/// setting, a preset or a world.
 [[nodiscard]] std::string pageOf(const Topic& topic);
 
 /// Settings that mean something with this value and with at most two thirds of its choice's, by themselves or once

@@ -21,11 +21,6 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kChoices{"filter", "partition", "fit", "soften", "motion"};
 
-bool isChoice(std::string_view key)
-{
-    return std::find(kChoices.begin(), kChoices.end(), key) != kChoices.end();
-}
-
 /// All settings of a group that have an effect now, but for those that `leaves_out` names.
 template <typename LeavesOut>
 void rowsOf(Viewer& viewer, Widgets& widgets, SettingGroup group, LeavesOut&& leaves_out)
