@@ -29,6 +29,10 @@ struct Command {
 /// `arguments` without the program's name. Throws UsageError; Error when a preset's file cannot be read.
 [[nodiscard]] Command parseCommandLine(std::span<const std::string> arguments);
 
+/// The names of the subcommands that have it.
+[[nodiscard]] std::vector<std::string_view> subcommandsOf(const Setting& setting);
+/// How help writes the option: "-o, --out FILE".
+[[nodiscard]] std::string optionText(const Setting& setting);
 /// At most 40 lines of at most 100 columns.
 [[nodiscard]] std::string helpText(const Subcommand* subcommand);
 

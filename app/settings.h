@@ -187,6 +187,12 @@ inline constexpr std::uint32_t kDraw = kPictures | kCompare;         // all that
 inline constexpr std::uint32_t kFrames = kDraw | kPlan;              // all that take a scene
 inline constexpr std::uint32_t kMoving = kFrames & ~kView;           // all that take --frames
 
+/// A value that completion offers for a text.
+struct Offer {
+    std::string_view value;
+    std::string_view doc; // one line; may be empty
+};
+
 struct Setting {
     std::string_view key;
     SettingGroup group = SettingGroup::picture;
@@ -207,10 +213,17 @@ struct Setting {
     std::uint32_t subcommands = kFrames; // which have it
     bool own_option = true;              // false: only --set, presets and techniques
     bool command_line_only = false;      // decides only what is written or read, not what is done
+    char letter = 0;                     // "-o"; 0: none
     bool repeatable = false;             // each use adds to the ones before
     std::string_view separator = " ";    // between the uses of a repeatable one in `values`
     bool (*used)(const Settings&) = nullptr; // null: always has an effect
     std::string_view used_when;              // the sentence for it: "filter pcf"
+    std::string_view of_lights;              // the types of light that it is about, blanks between
+    /// For completion of a text: values that it may have, names in the scene, and files by their extensions: "png exr".
+    /// "/": folders alone.
+    std::vector<Offer> (*offers)() = nullptr;
+    std::vector<std::string> (*names_in)(const scene::Scene&) = nullptr;
+    std::string_view files;
     void (*apply)(Settings&, const SettingValue&) = nullptr;
     const OptionRow* option = nullptr; // a setting of the library's own: then neither `used` nor `apply`
 };
@@ -219,6 +232,10 @@ struct Setting {
 [[nodiscard]] const Setting* findSetting(std::string_view key);
 /// Has it an effect with these settings?
 [[nodiscard]] bool isUsed(const Setting& setting, const Settings& settings);
+/// Is the key that of a choice of a technique?
+[[nodiscard]] bool isChoice(std::string_view key);
+/// Any number that what is compared depends on.
+[[nodiscard]] bool canBeSwept(const Setting& setting);
 /// How one types it: "--size", "--set pcf.taps".
 [[nodiscard]] std::string spelled(const Setting& setting);
 

@@ -3,15 +3,14 @@
 #include "app/shot.h"
 #include "app/visual.h"
 #include "bench_against.h"
-#include "bench_page.h"
 #include "bench_report.h"
 #include "compare_folder.h"
 #include "contestants.h"
-#include "findings.h"
 #include "progress.h"
+#include "report_pages.h"
+#include "shot_parts.h"
 #include "streams.h"
 #include "subcommands.h"
-#include "wait_notes.h"
 
 #include "files/files.h"
 #include "lab/texel_density.h"
@@ -242,10 +241,6 @@ int runBench(const Settings& settings)
         folder = std::make_unique<ReportFolder>(settings.report, std::vector<std::string>{kReportPage, kReportResult});
     }
     const BenchRun run = runTimes(settings);
-    if (settings.json.empty() && !run.earlier && !folder) {
-        writeStdout(benchTable(run.result, run.shot, settings));
-        return 0;
-    }
     Json json = benchJson(run.result, run.shot, settings);
     if (run.earlier) {
         json["against"] = againstJson(*run.earlier, parseBenchFigures(jsonText(json), "this run"));
@@ -253,10 +248,9 @@ int runBench(const Settings& settings)
     if (folder) {
         writeReport(*folder, json);
     }
-    if (settings.json.empty() && !run.earlier) {
-        writeStdout(benchTable(run.result, run.shot, settings));
-    } else if (settings.json.empty()) {
-        writeStdout(benchTable(run.result, run.shot, settings) + againstText(json.at("against")));
+    if (settings.json.empty()) {
+        writeStdout(benchText(json, largestSide(settings.shadow)) +
+                    (run.earlier ? againstText(json.at("against")) : std::string()));
     } else {
         writeResult(settings.json, jsonText(json));
     }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench_page.h"
-
+// A bench's JSON in tables: for the terminal, and for the page of a report.
 #include "report_html.h"
+#include "report_pages.h"
+#include "technique_json.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -17,8 +19,6 @@ struct Column {
     int decimals;
     const char* meaning; // a sentence without its end
 };
-constexpr double kMiB = 1024.0 * 1024.0;
-
 constexpr Column kTimes[] = {
     {"plan", "/time_ms/plan", 3, "median milliseconds of planning, on the CPU"},
     {"maps", "/time_ms/maps", 3, "of drawing maps, every one anew in every frame"},
@@ -41,23 +41,10 @@ constexpr Column kPass[] = {{"ms", "/ms", 3, "median milliseconds"},
                             {"draws", "/draws", 0, ""},
                             {"texels", "/texels", 0, ""}};
 
-/// The names of a result's techniques without the parts that all of them have, and those parts.
-struct Names {
-    std::vector<std::string> names;
-    std::string common;
-};
-
-Names namesOf(const Json& result)
+std::string mebibytesCell(const Json& json, const char* where, int decimals)
 {
-    Names names;
-    for (const Json& technique : result.at("results")) {
-        names.names.push_back(textAt(technique, "/technique"));
-    }
-    names.common = commonParts(names.names);
-    for (std::string& name : names.names) {
-        name = withoutParts(name, names.common);
-    }
-    return names;
+    const std::optional<double> bytes = numberAt(json, where);
+    return cell(bytes ? std::optional(*bytes / (1024.0 * 1024.0)) : std::nullopt, decimals);
 }
 
 TextTable timesTable(const Json& result, const std::vector<std::string>& names)
@@ -68,8 +55,7 @@ TextTable timesTable(const Json& result, const std::vector<std::string>& names)
         for (const Column& column : kTimes) {
             table.rows.back().push_back(cell(numberAt(json, column.where), column.decimals));
         }
-        const std::optional<double> bytes = numberAt(json, "/memory_bytes");
-        table.rows.back().push_back(cell(bytes ? std::optional(*bytes / kMiB) : std::nullopt, 2));
+        table.rows.back().push_back(mebibytesCell(json, "/memory_bytes", 2));
     };
     for (const Column& column : kTimes) {
         table.columns.emplace_back(column.name);
@@ -128,12 +114,126 @@ std::string facts(const Json& result)
            definition("result", "result.json: every number, and the settings to repeat it") + "</dl>\n";
 }
 
+constexpr const char* kOfPass[] = {"/ms", "/iqr_ms", "/share"};
+
+/// The passes of the one technique, beside the frame without shadows. With several techniques it is empty: it would be
+/// long, and results have it.
+std::string passText(const Json& result)
+{
+    if (result.at("results").size() != 1) {
+        return {};
+    }
+    const Json& technique = result.at("results")[0];
+    const Json& without = result.at("baseline").at("passes");
+    const std::optional<double> frame_ms = numberAt(technique, "/time_ms/frame");
+    std::optional<double> outside_ms = frame_ms;
+    TextTable table{{"pass", "ms", "iqr", "share", "without", "vertices", "fragments", "compute", "draws", "least MiB"},
+                    {}};
+    for (const Json& pass : technique.at("passes")) {
+        const auto same = std::ranges::find_if(
+            without, [&](const Json& other) { return textAt(other, "/name") == textAt(pass, "/name"); });
+        const std::optional<double> ms = numberAt(pass, "/ms");
+        outside_ms = outside_ms && ms ? std::optional(*outside_ms - *ms) : std::nullopt;
+        std::vector<std::string>& row = table.rows.emplace_back(std::vector{textAt(pass, "/name")});
+        for (const char* number : kOfPass) {
+            row.push_back(cell(numberAt(pass, number), 3));
+        }
+        row.push_back(cell(same == without.end() ? std::nullopt : numberAt(*same, "/ms"), 3));
+        for (const char* count : {"/vertex_invocations", "/fragment_invocations", "/compute_invocations", "/draws"}) {
+            row.push_back(cell(numberAt(pass, count), 0));
+        }
+        row.push_back(mebibytesCell(pass, "/bytes_minimum", 2));
+    }
+    const bool is_shared = outside_ms && frame_ms && *frame_ms > 0.0;
+    table.rows.push_back({"outside", cell(outside_ms, 3), std::string(kNoNumber),
+                          cell(is_shared ? std::optional(*outside_ms / *frame_ms) : std::nullopt, 3)});
+    table.rows.back().resize(table.columns.size(), std::string(kNoNumber));
+    return "\n" + fittedTableText(table);
+}
+
+/// Adds a row for each technique: its name and the cells that `cells` makes, unless these are none.
+template <typename Cells>
+std::string techniquesText(const Json& result, std::vector<std::string> columns, const Cells& cells)
+{
+    TextTable table{std::move(columns), {}};
+    for (const Json& technique : result.at("results")) {
+        std::vector<std::string> row = cells(technique);
+        if (!row.empty()) {
+            row.insert(row.begin(), textAt(technique, "/technique"));
+            table.rows.push_back(std::move(row));
+        }
+    }
+    return table.rows.empty() ? std::string() : "\n" + fittedTableText(table);
+}
+
+/// The cost of blurring maps, for each technique that blurs.
+std::vector<std::string> blurCells(const Json& technique)
+{
+    const Json& counters = technique.at("counters");
+    if (counters.at("blur_path").is_null()) {
+        return {};
+    }
+    const double texels = *numberAt(counters, "/texels_filtered");
+    return {textAt(counters, "/blur_path"),
+            cell(texels / 1e6, 2),
+            cell(*numberAt(counters, "/filter_taps") / texels, 1),
+            mebibytesCell(counters, "/filter_bytes", 1),
+            mebibytesCell(counters, "/filter_bytes_minimum", 1),
+            cell(numberAt(counters, "/filter_bytes_ratio"), 2)};
+}
+
+/// How cascades were drawn, for each technique that has them.
+std::vector<std::string> cascadeCells(const Json& technique)
+{
+    return technique.at("cascade_pass").is_null() ? std::vector<std::string>()
+                                                  : std::vector{textAt(technique, "/cascade_pass")};
+}
+
+std::vector<std::string> reuseCells(const Json& technique)
+{
+    std::vector<std::string> cells;
+    for (const auto& [name, mean] : technique.at("static_reuse").items()) {
+        cells.push_back(cell(mean.get<double>(), 2));
+    }
+    return cells;
+}
+
 } // namespace
+
+std::string benchText(const Json& result, std::uint32_t map_side)
+{
+    const bool has_path = result.contains("path");
+    std::string text = fmt::format(
+        "{}, camera {}, {}, map {}, on {} ({})\nmedian milliseconds of {} frames{}; static: maps that still hold are "
+        "kept, still: masks too\n\n",
+        textAt(result, "/scene"), textAt(result, "/camera"), textAt(result, "/settings/size"), map_side,
+        textAt(result, "/device"), textAt(result, "/driver"), result.at("frames_timed").dump(),
+        has_path ? fmt::format(" along {} from {}", textAt(result, "/path/name"),
+                               result.at("path").at("frames").at("first").dump())
+                 : "");
+    text += tableText(timesTable(result, techniqueNames(result.at("results"))));
+    for (const Json& missing : result.at("not_measured")) {
+        text += missing.get<std::string>() + "\n";
+    }
+    std::vector<std::string> reuse{"maps that hold kept, per frame"};
+    for (const ReuseCounter& counter : reuseCounters({})) {
+        reuse.emplace_back(counter.title);
+    }
+    return text + passText(result) +
+           techniquesText(result, {"blur", "path", "Mtexels", "taps/texel", "MiB moved", "least", "ratio"}, blurCells) +
+           techniquesText(result, {"cascades", "drawn"}, cascadeCells) +
+           (has_path ? techniquesText(result, reuse, reuseCells) : "");
+}
 
 std::string benchPage(const Json& result)
 {
     const std::size_t count = result.at("results").size();
-    const auto [names, common] = namesOf(result);
+    const std::vector<std::string> whole = techniqueNames(result.at("results"));
+    const std::string common = commonParts(whole);
+    std::vector<std::string> names;
+    for (const std::string& name : whole) {
+        names.push_back(withoutParts(name, common));
+    }
     const TextTable times = timesTable(result, names);
     const TextTable passes = passesTable(result, names);
     const std::string caption = "Median milliseconds; ratios are to the frame without shadows." +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The results of a bench, as JSON and as a table.
+// The results of a bench, and their JSON, from which its tables and its page are made.
 #pragma once
 
 #include "app/shot.h"
@@ -35,6 +35,5 @@ struct BenchResult {
 /// The JSON that is known before anything is timed. It reads only `device` and `driver` of the result.
 [[nodiscard]] Json benchHead(const BenchResult& result, const Shot& shot, const Settings& settings);
 [[nodiscard]] Json benchJson(const BenchResult& result, const Shot& shot, const Settings& settings);
-[[nodiscard]] std::string benchTable(const BenchResult& result, const Shot& shot, const Settings& settings);
 
 } // namespace gnomon::app

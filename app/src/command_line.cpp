@@ -4,9 +4,8 @@
 #include "app/preset.h"
 #include "contestants.h"
 #include "files/files.h"
-#include "list.h"
-#include "technique_file.h"
 #include "technique_text.h"
+#include "topics.h"
 #include "worlds/worlds.h"
 
 #include <CLI/CLI.hpp>
@@ -33,11 +32,6 @@ const Subcommand& findSubcommand(const std::string& name)
     }
     throw UsageError(
         fmt::format("there is no subcommand \"{}\"{}; it is one of {}", name, suggestion(name, names), listed(names)));
-}
-
-std::string_view aliasOf(std::string_view key)
-{
-    return key == "out" ? ",-o" : "";
 }
 
 [[noreturn]] void refuseOption(const Subcommand& subcommand, const std::string& argument)
@@ -94,7 +88,8 @@ void addOptions(CLI::App& cli, const Subcommand& subcommand, Parsed& parsed)
             continue;
         }
         auto& values = parsed.options.emplace_back(&setting, std::vector<std::string>{}).second;
-        const std::string name = fmt::format("--{}{}", setting.key, aliasOf(setting.key));
+        const std::string name = setting.letter == 0 ? fmt::format("--{}", setting.key)
+                                                     : fmt::format("--{},-{}", setting.key, setting.letter);
         if (setting.type == SettingType::flag) {
             cli.add_flag_callback(name, [&values] { values.emplace_back("1"); });
         } else {

@@ -2,8 +2,8 @@
 #include "compare_folder.h"
 
 #include "app/visual.h"
-#include "compare_json.h"
-#include "compare_page.h"
+#include "compare_steps.h"
+#include "report_pages.h"
 #include "report_pictures.h"
 
 #include "files/files.h"

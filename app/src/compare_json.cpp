@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compare_json.h"
+#include "compare_steps.h"
 
 #include "command_text.h"
-#include "compare_notes.h"
 #include "technique_json.h"
 
 #include <cmath>

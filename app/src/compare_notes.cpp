@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compare_notes.h"
+#include "compare_steps.h"
 
 #include "compare_text.h"
 

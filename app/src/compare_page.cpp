@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Text is made here and read without scripts; pages/page.js puts in pictures and charts.
-#include "compare_page.h"
+#include "report_pages.h"
 
 #include "compare_text.h"
 #include "report_html.h"
@@ -49,15 +49,6 @@ std::string facts(const Json& result)
     return list + "</dl>\n";
 }
 
-std::vector<std::string> namesOf(const Json& results)
-{
-    std::vector<std::string> names;
-    for (const Json& one : results) {
-        names.push_back(textAt(one, "/technique"));
-    }
-    return names;
-}
-
 const Json& linesOf(const Json& result)
 {
     return result.contains("sweep") ? result.at("sweep").at("results") : result.at("results");
@@ -75,7 +66,7 @@ std::string tableCaption(const Json& result, const std::string& common)
 std::string numbers(const Json& result)
 {
     const TextTable table = compareTable(result, true);
-    const std::string caption = tableCaption(result, commonParts(namesOf(linesOf(result))));
+    const std::string caption = tableCaption(result, commonParts(techniqueNames(linesOf(result))));
     return tableHtml(table, {"techniques", caption, !result.contains("sweep")}) + meaningsHtml(table);
 }
 
@@ -125,12 +116,7 @@ Json pageLegends()
 
 std::string comparePage(const Json& result, const Json& pictures)
 {
-    Json data{{"result", result}, {"legends", pageLegends()}, {"names", Json::array()}};
-    const std::vector<std::string> names = namesOf(linesOf(result));
-    const std::string common = commonParts(names) + "+" + commonBlurPath(names);
-    for (const std::string& name : names) {
-        data["names"].push_back(withoutParts(name, common));
-    }
+    Json data{{"result", result}, {"legends", pageLegends()}, {"names", shortNames(techniqueNames(linesOf(result)))}};
     // The first three are filled by the scripts.
     const std::string body = "<div id=\"look\"></div>\n<div id=\"panes\"></div>\n<div id=\"charts\"></div>\n" +
                              section("numbers", "Numbers", numbers(result)) +

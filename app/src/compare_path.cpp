@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compare_path.h"
+#include "compare_steps.h"
 
 #include "app/visual.h"
 #include "report_pictures.h"

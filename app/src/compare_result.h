@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The results of a comparison. Its JSON is made from them (compare_json.h), and all that is shown is made from the
+// The results of a comparison. Its JSON is made from them (compareJson()), and all that is shown is made from the
 // JSON.
 #pragma once
 

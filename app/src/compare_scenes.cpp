@@ -2,13 +2,13 @@
 #include "compare_scenes.h"
 
 #include "compare_folder.h"
-#include "compare_page.h"
 #include "compare_table.h"
 #include "compare_text.h"
-#include "findings.h"
 #include "lab/report.h"
 #include "report_html.h"
+#include "report_pages.h"
 #include "streams.h"
+#include "subcommands.h"
 #include "worlds/worlds.h"
 
 #include <gnomon/error.h>
@@ -100,19 +100,6 @@ Json overScenes(const Json& scenes)
     return techniques;
 }
 
-std::vector<std::string> namesOf(const Json& scenes)
-{
-    std::vector<std::string> names;
-    for (const Json& one : scenes.at("techniques")) {
-        names.push_back(textAt(one, "/technique"));
-    }
-    const std::string common = commonParts(names) + "+" + commonBlurPath(names);
-    for (std::string& name : names) {
-        name = withoutParts(name, common);
-    }
-    return names;
-}
-
 TextTable tableOf(const Json& scenes)
 {
     constexpr int kDecimals = 4;
@@ -126,7 +113,7 @@ TextTable tableOf(const Json& scenes)
     table.columns.emplace_back("mean");
     table.meanings.emplace_back(
         "geometric mean of the errors, those below 0.001 as 0.001: each scene counts as much as any other");
-    const std::vector<std::string> names = namesOf(scenes);
+    const std::vector<std::string> names = shortNames(techniqueNames(scenes.at("techniques")));
     for (std::size_t i = 0; i < names.size(); ++i) {
         const Json& one = scenes.at("techniques")[i];
         table.rows.push_back({names[i]});
@@ -217,7 +204,8 @@ std::string scenesPage(const Json& scenes)
         section("numbers", "Error in every scene",
                 tableHtml(table, {"techniques", "The least mean first.", true}) + meaningsHtml(table)) +
         section("scenes", "The scenes", linksHtml(scenes));
-    Json data{{"result", scenes}, {"names", namesOf(scenes)}, {"legends", pageLegends()}};
+    Json data{
+        {"result", scenes}, {"names", shortNames(techniqueNames(scenes.at("techniques")))}, {"legends", pageLegends()}};
     return pageHtml({.kind = "scenes",
                      .title = fmt::format("Shadows of {} scenes", scenes.at("scenes").size()),
                      .lead = fmt::format("{} technique{} held against ray-traced truth in each of them", count,

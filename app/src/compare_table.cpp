@@ -73,6 +73,24 @@ std::string fittedTableText(const TextTable& table)
     return text;
 }
 
+std::vector<std::string> techniqueNames(const Json& rows)
+{
+    std::vector<std::string> names;
+    for (const Json& row : rows) {
+        names.push_back(textAt(row, "/technique"));
+    }
+    return names;
+}
+
+std::vector<std::string> shortNames(std::vector<std::string> techniques)
+{
+    const std::string common = commonParts(techniques) + "+" + commonBlurPath(techniques);
+    for (std::string& name : techniques) {
+        name = withoutParts(name, common);
+    }
+    return techniques;
+}
+
 std::string commonParts(const std::vector<std::string>& techniques)
 {
     if (techniques.size() < 2) {

@@ -2,6 +2,8 @@
 // Tables of techniques as text.
 #pragma once
 
+#include "result_json.h"
+
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,11 +30,15 @@ inline constexpr std::size_t kTableWidth = 120;
 inline constexpr std::string_view kNoNumber = "-";
 [[nodiscard]] std::string cell(const std::optional<double>& value, int decimals);
 
+/// "technique" of each of a result's rows.
+[[nodiscard]] std::vector<std::string> techniqueNames(const Json& rows);
 /// The parts after the first of "pcf+map-size=64+pcf.kernel=3x3" that all techniques have, "+" between; empty with
 /// fewer than two techniques.
 [[nodiscard]] std::string commonParts(const std::vector<std::string>& techniques);
 /// The part that says how techniques blur, if all of them that blur say the same: "blur.path=compute"; else empty.
 [[nodiscard]] std::string commonBlurPath(const std::vector<std::string>& techniques);
+/// The names without commonParts() and commonBlurPath().
+[[nodiscard]] std::vector<std::string> shortNames(std::vector<std::string> techniques);
 /// `technique` less the parts of `parts`.
 [[nodiscard]] std::string withoutParts(std::string_view technique, std::string_view parts);
 

@@ -63,15 +63,6 @@ bool has(const Json& result, const char* pointer)
     return result.contains(Json::json_pointer(pointer));
 }
 
-std::vector<std::string> namesOf(const Json& rows)
-{
-    std::vector<std::string> names;
-    for (const Json& row : rows) {
-        names.push_back(textAt(row, "/technique"));
-    }
-    return names;
-}
-
 /// The points of a sweep as techniques are: "technique", "value", "error" and, where each has its own, "truth" and
 /// "pixels".
 Json pointsOf(const Json& sweep)
@@ -201,11 +192,9 @@ TextTable compareTable(const Json& result, bool short_names)
 {
     const bool sweep = result.contains("sweep");
     const Json rows = sweep ? pointsOf(result.at("sweep")) : result.at("results");
-    const std::vector<std::string> names = namesOf(rows);
-    const std::string common = short_names ? commonParts(names) + "+" + commonBlurPath(names) : std::string();
     TextTable table{{"technique"}, {}, {""}};
-    for (const std::string& name : names) {
-        table.rows.push_back({withoutParts(name, common)});
+    for (const std::string& name : short_names ? shortNames(techniqueNames(rows)) : techniqueNames(rows)) {
+        table.rows.push_back({name});
     }
     if (sweep) {
         table.columns.push_back(textAt(result, "/sweep/key"));
@@ -306,7 +295,7 @@ std::string compareText(const Json& result)
     if (result.contains("sweep")) {
         return text + "\n" + fittedTableText(compareTable(result, false));
     }
-    const std::vector<std::string> names = namesOf(result.at("results"));
+    const std::vector<std::string> names = techniqueNames(result.at("results"));
     const std::string common = commonParts(names);
     if (!common.empty()) {
         text += fmt::format("all with {}\n", common);

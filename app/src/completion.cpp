@@ -3,18 +3,13 @@
 #include "completion.h"
 
 #include "app/command_line.h"
-#include "app/preset.h"
-#include "app/scripted_path.h"
-#include "completion_scene.h"
 #include "files/files.h"
-#include "list.h"
 #include "streams.h"
 #include "subcommands.h"
 #include "technique_text.h"
+#include "topics.h"
 
-#include "worlds/worlds.h"
-
-#include <gnomon/choices.h>
+#include <gnomon/error.h>
 
 #include <fmt/format.h>
 
@@ -25,6 +20,8 @@ namespace {
 
 /// Collects the candidates that have a given start.
 struct Answer {
+    const Subcommand* subcommand = nullptr;
+    std::span<const std::string> words;
     Completion completion;
     std::string before; // the text in the word before the part that is completed: "pcf+", "--filter="
     std::string start;  // the start of the part that is completed
@@ -35,56 +32,72 @@ struct Answer {
             completion.candidates.push_back({before + std::string(word), std::string(description)});
         }
     }
-    /// The part goes on after the first of these characters from the right: what is before it is kept.
-    void keepUpTo(char separator)
+    /// The part goes on after the character at this place: what is up to it is kept.
+    void keepUpTo(std::size_t at)
     {
-        if (const std::size_t at = start.rfind(separator); at != std::string::npos) {
+        if (at != std::string::npos) {
             before += start.substr(0, at + 1);
             start.erase(0, at + 1);
         }
     }
 };
 
-std::string_view summaryOf(std::string_view choice, std::string_view name)
+bool hasIt(const Setting& setting, const Subcommand& subcommand)
 {
-    const ChoiceValue* const row = findChoice(choice, name);
-    return row != nullptr ? row->summary : std::string_view();
+    return (setting.subcommands & subcommand.bit) != 0;
 }
 
-/// Adds the values that the setting itself lists, without looking at the scene or the disk.
+/// Adds the topics of a section; of an empty one all, each name once.
+void addTopics(Answer& answer, std::string_view section)
+{
+    std::set<std::string_view> names;
+    for (const Topic& topic : topics()) {
+        if ((section.empty() || topic.section == section) && names.insert(topic.name).second) {
+            answer.add(topic.name, topic.summary);
+        }
+    }
+}
+
+void addKeys(Answer& answer, bool (*is_one)(const Setting&, const Subcommand&))
+{
+    answer.completion.goes_on = true;
+    for (const Setting& setting : settingTable()) {
+        if (is_one(setting, *answer.subcommand)) {
+            answer.add(fmt::format("{}=", setting.key), setting.doc);
+        }
+    }
+}
+
+/// Adds the values that the setting itself lists, without looking at the scene.
 void addValues(Answer& answer, const Setting& setting)
 {
-    if (setting.choices != nullptr) {
-        for (const std::string_view name : setting.choices()) {
-            answer.add(name, summaryOf(setting.key, name));
-        }
-    } else if (setting.type == SettingType::flag) {
+    for (const Offer& offer : setting.offers != nullptr ? setting.offers() : std::vector<Offer>()) {
+        answer.add(offer.value, offer.doc);
+    }
+    for (const std::string_view name :
+         setting.choices != nullptr ? setting.choices() : std::vector<std::string_view>()) {
+        const ChoiceValue* const row = findChoice(setting.key, name);
+        answer.add(name, row != nullptr ? row->summary : std::string_view());
+    }
+    if (setting.type == SettingType::flag) {
         answer.add("0");
         answer.add("1");
     }
     if (!setting.none_text.empty()) {
         answer.add(setting.none_text);
     }
-}
-
-void addKeys(Answer& answer, bool (*is_one)(const Setting&))
-{
-    for (const Setting& setting : settingTable()) {
-        if (is_one(setting)) {
-            answer.add(fmt::format("{}=", setting.key), setting.doc);
-        }
-    }
+    answer.completion.files = setting.files;
 }
 
 /// Adds candidates after the last + of a technique: a value of a choice that has none yet, or KEY=.
 void addTechniqueParts(Answer& answer)
 {
     answer.completion.goes_on = true;
-    answer.keepUpTo('+');
+    answer.keepUpTo(answer.start.rfind('+'));
     if (const std::size_t equals = answer.start.find('='); equals != std::string::npos) {
         const Setting* const setting = findSetting(answer.start.substr(0, equals));
         if (setting != nullptr && setting->group == SettingGroup::technique) {
-            answer.keepUpTo('=');
+            answer.keepUpTo(answer.start.rfind('='));
             addValues(answer, *setting);
         }
         return;
@@ -98,125 +111,91 @@ void addTechniqueParts(Answer& answer)
             answer.add(row.name, row.summary);
         }
     }
-    addKeys(answer, [](const Setting& setting) {
+    addKeys(answer, [](const Setting& setting, const Subcommand&) {
         return setting.group == SettingGroup::technique && setting.key != "technique" &&
                !findChoice(setting.key, "auto");
     });
 }
 
-void addPresets(Answer& answer)
+/// Names of what the setting chooses in the scene that the line names, else in rts. Nothing for a scene that cannot be
+/// read, or takes too long to.
+void addNamesInScene(Answer& answer, const Setting& setting)
 {
-    for (const Preset& preset : presets()) {
-        answer.add(preset.name, preset.summary);
-    }
-    answer.completion.files = "json";
-}
-
-void addScenes(Answer& answer)
-{
-    for (const worlds::World& world : worlds::all()) {
-        answer.add(world.name, world.summary);
-    }
-    answer.completion.files = "gltf glb";
-}
-
-/// Values of settings that are texts.
-void addTexts(Answer& answer, std::string_view key, std::span<const std::string> words)
-{
-    if (key == "technique") {
-        addTechniqueParts(answer);
-    } else if (key == "techniques") {
-        answer.keepUpTo(',');
-        if (answer.before.empty()) {
-            answer.add("all", "every filter, and pcf with every kernel");
-        }
-        addTechniqueParts(answer);
-    } else if (key == "camera" || key == "light" || key == "animation") {
-        for (const std::string& name : namesInScene(key, words)) {
-            answer.add(name);
-        }
-    } else if (key == "path") {
-        for (const std::string_view name : pathNames()) {
-            answer.add(name);
-        }
-        answer.completion.files = "json";
-    } else if (key == "gpu") {
-        answer.add("software", "the software rasteriser");
-    } else if (key == "sweep") {
-        answer.completion.goes_on = true;
-        addKeys(answer, [](const Setting& setting) {
-            const bool is_number = setting.type == SettingType::integer || setting.type == SettingType::real;
-            return is_number && setting.group != SettingGroup::result && (setting.subcommands & kCompare) != 0;
-        });
-    } else if (key == "bias") {
-        answer.add("auto");
-        answer.add("none");
-    } else {
-        answer.completion.files = key == "out"                        ? "png exr"
-                                  : key == "draw"                     ? "svg"
-                                  : key == "report"                   ? "/"
-                                  : key == "json" || key == "against" ? "json"
-                                                                      : "";
-    }
-}
-
-void addValueOf(Answer& answer, std::string_view key, std::span<const std::string> words, const Subcommand& subcommand)
-{
-    if (key == "preset") {
-        addPresets(answer);
-        return;
-    }
-    if (key == "set") {
-        const std::size_t equals = answer.start.find('=');
-        if (equals != std::string::npos) {
-            const std::string set = answer.start.substr(0, equals);
-            answer.before += answer.start.substr(0, equals + 1);
-            answer.start.erase(0, equals + 1);
-            addValueOf(answer, set, words, subcommand);
-            return;
-        }
-        answer.completion.goes_on = true;
-        for (const Setting& setting : settingTable()) {
-            if ((setting.subcommands & subcommand.bit) != 0 && !setting.command_line_only) {
-                answer.add(fmt::format("{}=", setting.key), setting.doc);
+    constexpr std::uint64_t kMostBytes = 32U << 20U; // larger files are not read, so that nobody waits long
+    scene::Limits limits;
+    limits.max_file_bytes = kMostBytes;
+    limits.max_total_bytes = kMostBytes;
+    const auto named = std::ranges::find_if(answer.words.begin(), answer.words.end() - 1, [](const std::string& word) {
+        return worlds::find(word) != nullptr || hasExtension(word, ".gltf") || hasExtension(word, ".glb");
+    });
+    try {
+        const scene::Scene scene = worlds::load(named == answer.words.end() - 1 ? "rts" : *named, 1, limits);
+        std::set<std::string> names{""};
+        for (const std::string& name : setting.names_in(scene)) {
+            if (names.insert(name).second) {
+                answer.add(name);
             }
         }
-        return;
-    }
-    if (const Setting* setting = findSetting(key)) {
-        if (setting->type == SettingType::text) {
-            addTexts(answer, key, words);
-        } else {
-            addValues(answer, *setting);
-        }
+    } catch (const Error&) { // the line itself will say so once it is run
     }
 }
 
-void addOptions(Answer& answer, const Subcommand& subcommand)
+void addValueOf(Answer& answer, std::string_view key)
+{
+    const Setting* const setting = findSetting(key);
+    if (key == "preset") {
+        addTopics(answer, "presets");
+        answer.completion.files = "json";
+    } else if (const std::size_t equals = answer.start.find('='); key == "set" && equals != std::string::npos) {
+        const std::string set = answer.start.substr(0, equals);
+        answer.keepUpTo(equals);
+        addValueOf(answer, set);
+    } else if (key == "set") {
+        addKeys(answer, [](const Setting& one, const Subcommand& subcommand) {
+            return hasIt(one, subcommand) && !one.command_line_only;
+        });
+    } else if (key == "technique") {
+        addTechniqueParts(answer);
+    } else if (key == "techniques") {
+        answer.keepUpTo(answer.start.rfind(','));
+        if (answer.before.empty()) {
+            addValues(answer, *setting);
+        }
+        addTechniqueParts(answer);
+    } else if (key == "sweep") {
+        addKeys(answer, [](const Setting& one, const Subcommand&) { return canBeSwept(one); });
+    } else if (setting != nullptr && setting->names_in != nullptr) {
+        addNamesInScene(answer, *setting);
+    } else if (setting != nullptr) {
+        addValues(answer, *setting);
+    }
+}
+
+void addOptions(Answer& answer)
 {
     for (const Setting& setting : settingTable()) {
-        if (setting.own_option && (setting.subcommands & subcommand.bit) != 0) {
+        if (setting.own_option && hasIt(setting, *answer.subcommand)) {
             answer.add(fmt::format("--{}", setting.key), setting.doc);
         }
     }
-    if ((subcommand.bit & kFrames) != 0) {
+    if ((answer.subcommand->bit & kFrames) != 0) {
         answer.add("--set", "any other setting, as KEY=VALUE");
         answer.add("--preset", "a JSON file of settings, or a built-in one");
     }
     answer.add("--help", "the options of this subcommand");
 }
 
-void addWords(Answer& answer, const Subcommand& subcommand)
+void addWords(Answer& answer)
 {
-    if ((subcommand.bit & kFrames) != 0) {
-        addScenes(answer);
-    } else if (subcommand.bit == kMetrics) {
+    const std::uint32_t bit = answer.subcommand->bit;
+    if ((bit & kFrames) != 0) {
+        addTopics(answer, "worlds");
+        answer.completion.files = "gltf glb";
+    } else if (bit == kMetrics) {
         answer.completion.files = "png exr";
-    } else if (subcommand.bit == kList) {
-        for (const ListedName& listed_name : listedNames()) {
-            answer.add(listed_name.name, listed_name.summary);
-        }
-    } else if (subcommand.bit == kCompletion) {
+    } else if (bit == kList) {
+        addTopics(answer, "");
+    } else if (bit == kCompletion) {
         for (const std::string_view shell : shellNames()) {
             answer.add(shell);
         }
@@ -233,36 +212,32 @@ void addSubcommands(Answer& answer)
 /// The key of an option that takes the next word as its value; empty where it is none.
 std::string_view keyOfOption(std::string_view word)
 {
-    if (word == "-o") {
-        return "out";
+    for (const Setting& setting : settingTable()) {
+        if (setting.own_option && setting.type != SettingType::flag &&
+            (word == fmt::format("--{}", setting.key) || word == fmt::format("-{}", setting.letter))) {
+            return setting.key;
+        }
     }
-    if (!word.starts_with("--")) {
-        return {};
-    }
-    const std::string_view key = word.substr(2);
-    const Setting* const setting = findSetting(key);
-    const bool takes_one = setting != nullptr && setting->own_option && setting->type != SettingType::flag;
-    return takes_one || key == "set" || key == "preset" ? key : std::string_view();
+    return word == "--set" || word == "--preset" ? word.substr(2) : std::string_view();
 }
 
-void answerLine(Answer& answer, const Subcommand& subcommand, std::span<const std::string> words)
+void answerLine(Answer& answer)
 {
-    const std::string& previous = words[words.size() - 2];
+    const std::string& previous = answer.words[answer.words.size() - 2];
     const std::size_t equals = answer.start.find('=');
     if (answer.start.starts_with("--") && equals != std::string::npos) {
         const std::string option = answer.start.substr(0, equals);
-        answer.before = answer.start.substr(0, equals + 1);
-        answer.start.erase(0, equals + 1);
-        addValueOf(answer, keyOfOption(option), words, subcommand);
-    } else if (const std::string_view key = keyOfOption(previous); words.size() > 2 && !key.empty()) {
-        addValueOf(answer, key, words, subcommand);
+        answer.keepUpTo(equals);
+        addValueOf(answer, keyOfOption(option));
+    } else if (const std::string_view key = keyOfOption(previous); answer.words.size() > 2 && !key.empty()) {
+        addValueOf(answer, key);
         if (key == "json") { // its file may be left out
-            addWords(answer, subcommand);
+            addWords(answer);
         }
     } else if (answer.start.starts_with("-")) {
-        addOptions(answer, subcommand);
+        addOptions(answer);
     } else {
-        addWords(answer, subcommand);
+        addWords(answer);
     }
 }
 
@@ -271,6 +246,7 @@ void answerLine(Answer& answer, const Subcommand& subcommand, std::span<const st
 Completion completionOf(std::span<const std::string> words)
 {
     Answer answer;
+    answer.words = words;
     answer.start = words.empty() ? "" : words.back();
     if (words.size() <= 1) {
         addSubcommands(answer);
@@ -283,7 +259,8 @@ Completion completionOf(std::span<const std::string> words)
         const auto all = subcommands();
         const auto found = std::ranges::find(all, std::string_view(words[0]), &Subcommand::name);
         if (found != all.end()) {
-            answerLine(answer, *found, words);
+            answer.subcommand = &*found;
+            answerLine(answer);
         }
     }
     return answer.completion;

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "framing.h"
-
-#include "surroundings.h"
+#include "shot_parts.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

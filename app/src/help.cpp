@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace gnomon::app {
 namespace {
 
@@ -23,10 +25,8 @@ std::string programHelp()
     for (const Subcommand& subcommand : subcommands()) {
         text += line(std::string(subcommand.name), std::string(subcommand.summary));
     }
-    std::vector<std::string_view> worlds;
-    for (const worlds::World& world : worlds::all()) {
-        worlds.push_back(world.name);
-    }
+    std::vector<std::string_view> worlds(worlds::all().size());
+    std::ranges::transform(worlds::all(), worlds.begin(), &worlds::World::name);
     text += fmt::format("\nSCENE is a .gltf or .glb file or a built-in world:\n{}; without one it is rts.\n",
                         listed(worlds));
     return text + "\n`gnomon SUBCOMMAND --help` shows its options, `gnomon list` the choices of a technique and more,\n"
@@ -74,21 +74,32 @@ std::string optionLine(const Setting& setting, const Subcommand& subcommand)
             return {};
         }
     }
-    std::string left = fmt::format("--{}", setting.key);
-    if (setting.key == "out") {
-        left = "-o, --out";
-    }
-    if (setting.type != SettingType::flag) {
-        left += fmt::format(" {}", setting.form);
-    }
     std::string right(setting.doc);
     if (setting.type != SettingType::flag && !setting.default_text.empty()) {
         right += fmt::format(" ({})", setting.default_text);
     }
-    return line(left, right);
+    return line(optionText(setting), right);
 }
 
 } // namespace
+
+std::string optionText(const Setting& setting)
+{
+    const std::string letter = setting.letter == 0 ? "" : fmt::format("-{}, ", setting.letter);
+    const std::string form = setting.type == SettingType::flag ? "" : fmt::format(" {}", setting.form);
+    return fmt::format("{}--{}{}", letter, setting.key, form);
+}
+
+std::vector<std::string_view> subcommandsOf(const Setting& setting)
+{
+    std::vector<std::string_view> names;
+    for (const Subcommand& subcommand : subcommands()) {
+        if ((setting.subcommands & subcommand.bit) != 0) {
+            names.push_back(subcommand.name);
+        }
+    }
+    return names;
+}
 
 std::string helpText(const Subcommand* subcommand)
 {
@@ -103,8 +114,7 @@ std::string helpText(const Subcommand* subcommand)
             continue;
         }
         // The choices share a line: their values fill `gnomon list`.
-        if (setting.group == SettingGroup::technique && setting.default_text.size() > 2 &&
-            setting.type == SettingType::choice) {
+        if (setting.group == SettingGroup::technique && (isChoice(setting.key) || setting.key == "quality")) {
             choices += (choices.empty() ? "" : " ") + fmt::format("--{}", setting.key);
             continue;
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "last_words.h"
+#include "interrupt.h"
 
 #include "streams.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: C. Ericson, "Real-Time Collision Detection", 2005, section 5.1.5 (closest point on a triangle).
-#include "light_extent.h"
+#include "shot_parts.h"
 
 #include "scene/clip.h"
 

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names that `list` knows.
+// `gnomon list`, which prints the topics (topics.h) and what is refused (list_rules.h).
 #pragma once
 
+#include "result_json.h"
+
 #include <string_view>
-#include <vector>
 
 namespace gnomon::app {
 
-/// A name that `list` takes, and a line about it.
-struct ListedName {
-    std::string_view name;
-    std::string_view summary;
-};
-/// Sections, choices and their values, settings, presets and worlds. A name that several of them have is there once.
-[[nodiscard]] std::vector<ListedName> listedNames();
-[[nodiscard]] bool isListed(std::string_view name);
+/// All that `list` knows: {"version", "choices", "technique_grammar", "refused", "settings", "presets", "worlds"}. With
+/// a name that `list` has, the parts of these that concern it, with "name" and without empty lists.
+[[nodiscard]] Json listJson(std::string_view name);
 
 } // namespace gnomon::app

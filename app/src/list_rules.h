@@ -4,7 +4,6 @@
 
 #include <gnomon/choices.h>
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -19,11 +18,7 @@ struct Refused {
 /// The rules that refuse this value beside values of other choices; for a filter, also beside formats and options.
 [[nodiscard]] std::vector<Refused> refusedOf(const ChoiceValue& value);
 
-/// The formats in which maps of these filters are stored.
-struct StoredAs {
-    std::vector<std::string_view> filters; // that store the same
-    std::span<const MapFormat> formats;    // the usual one first; none: they have no maps
-};
-[[nodiscard]] std::vector<StoredAs> storageOfFilters();
+/// The formats in which a filter's maps are stored, the usual one first; of other values and without maps none.
+[[nodiscard]] std::vector<std::string_view> formatsOf(const ChoiceValue& value);
 
 } // namespace gnomon::app

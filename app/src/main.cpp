@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/command_line.h"
-#include "last_words.h"
+#include "interrupt.h"
 
 #include "host/gpu.h"
 

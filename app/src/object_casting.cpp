@@ -2,7 +2,7 @@
 #include "object_casting.h"
 
 #include "setting_values.h"
-#include "shot_light.h"
+#include "shot_parts.h"
 
 #include <fmt/format.h>
 

@@ -6,9 +6,9 @@
 #include "plan_layers.h"
 #include "progress.h"
 #include "result_json.h"
+#include "shot_parts.h"
 #include "streams.h"
 #include "subcommands.h"
-#include "wait_notes.h"
 
 #include "lab/plan_picture.h"
 

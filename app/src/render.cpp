@@ -6,11 +6,10 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "render_target.h"
-#include "shot_light.h"
+#include "shot_parts.h"
 #include "streams.h"
 #include "subcommands.h"
 #include "truth_masks.h"
-#include "wait_notes.h"
 
 #include "files/files.h"
 #include "host/gpu.h"

@@ -2,6 +2,7 @@
 #include "report_html.h"
 
 #include "page_texts.h"
+#include "wrap_text.h"
 
 #include <fmt/format.h>
 
@@ -13,16 +14,6 @@ namespace {
 /// Nothing may be loaded, from anywhere: pictures are in the page, and so is what runs.
 constexpr std::string_view kPolicy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; "
                                      "script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
-
-template <typename Texts>
-std::string joined(const Texts& texts)
-{
-    std::string all;
-    for (const std::string_view text : texts) {
-        all += text;
-    }
-    return all;
-}
 
 /// JSON that ends no script, whatever its texts are: of what HTML knows in a script, all begins with <.
 std::string scriptJson(const Json& json)
@@ -145,7 +136,7 @@ std::string pageHtml(const Page& page)
                     "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                     "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"
                     "<title>{}</title>\n<style>\n{}</style>\n</head>\n",
-                    kPolicy, title, joined(kPageStyle));
+                    kPolicy, title, joined(kPageStyle, ""));
     html += fmt::format("<body data-kind=\"{}\">\n<header class=\"masthead\">\n<p class=\"brand\">Gnomon</p>\n"
                         "<h1>{}</h1>\n<p class=\"lead\">{}</p>\n</header>\n<main>\n"
                         "<noscript><p>The pictures and charts of this page need JavaScript; its numbers do not.</p>"
@@ -153,8 +144,8 @@ std::string pageHtml(const Page& page)
                         page.kind, title, escaped(page.lead), page.body);
     html += "<script type=\"application/json\" id=\"data\">" + scriptJson(page.data) + "</script>\n";
     html += std::string(kPicturesTag) + scriptJson(page.pictures) + "</script>\n";
-    html += "<script>\n" + joined(kChartLicence) + joined(kChartLibrary) + "</script>\n";
-    return html + "<script>\n" + joined(kPageScript) + "</script>\n</body>\n</html>\n";
+    html += "<script>\n" + joined(kChartLicence, "") + joined(kChartLibrary, "") + "</script>\n";
+    return html + "<script>\n" + joined(kPageScript, "") + "</script>\n</body>\n</html>\n";
 }
 
 } // namespace gnomon::app

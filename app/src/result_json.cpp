@@ -101,13 +101,7 @@ Json settingJson(const Setting& setting)
         json["used_with"] = setting.used_when;
     }
     json["option"] = setting.own_option;
-    Json commands = Json::array();
-    for (const Subcommand& subcommand : subcommands()) {
-        if ((setting.subcommands & subcommand.bit) != 0) {
-            commands.push_back(subcommand.name);
-        }
-    }
-    json["subcommands"] = commands;
+    json["subcommands"] = subcommandsOf(setting);
     return json;
 }
 

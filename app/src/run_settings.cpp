@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Truth, time, the run itself and its results. A new option is one row here.
+#include "app/scripted_path.h"
 #include "debug_views.h"
 #include "setting_rows.h"
 #include "setting_values.h"
@@ -12,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace gnomon::app {
 namespace {
@@ -29,7 +31,7 @@ void applyTechniques(Settings& s, const Value& v)
             throw UsageError(
                 fmt::format("--techniques: \"{}\" has a comma with no technique before or after it", v.text));
         }
-        if (piece.front() == '@') { // the command line's to read, see technique_file.h
+        if (piece.front() == '@') { // the command line's to read, see applyTechniqueFile()
             throw UsageError(fmt::format("--techniques: {} stands alone, and on the command line only", piece));
         }
         if (std::find(s.techniques.begin(), s.techniques.end(), piece) != s.techniques.end()) {
@@ -42,45 +44,31 @@ void applyTechniques(Settings& s, const Value& v)
     }
 }
 
+struct Limit {
+    std::string_view name;
+    std::int64_t max;
+    void (*set)(scene::Limits&, std::uint64_t);
+};
+
+template <auto member>
+constexpr Limit limitOf(std::string_view name)
+{
+    using Number = std::remove_reference_t<decltype(std::declval<scene::Limits&>().*member)>;
+    constexpr std::uint64_t kMost = 9'000'000'000'000'000'000;
+    return {name, static_cast<std::int64_t>(std::min<std::uint64_t>(std::numeric_limits<Number>::max(), kMost)),
+            [](scene::Limits& limits, std::uint64_t number) {
+                limits.*member = static_cast<Number>(number);
+            }};
+}
+
 void applyLimit(Settings& s, const Value& v)
 {
-    struct Limit {
-        std::string_view name;
-        double max;
-        void (*set)(scene::Limits&, std::uint64_t);
-    };
-    constexpr double k32 = std::numeric_limits<std::uint32_t>::max();
-    constexpr double k63 = 9.0e18;
+    using Limits = scene::Limits;
     static constexpr std::array kLimits{
-        Limit{"file-bytes", k63,
-              [](scene::Limits& l, std::uint64_t n) {
-                  l.max_file_bytes = n;
-              }},
-        Limit{"total-bytes", k63,
-              [](scene::Limits& l, std::uint64_t n) {
-                  l.max_total_bytes = n;
-              }},
-        Limit{"image-side", k32,
-              [](scene::Limits& l, std::uint64_t n) {
-                  l.max_image_side = std::uint32_t(n);
-              }},
-        Limit{"node-depth", k32,
-              [](scene::Limits& l, std::uint64_t n) {
-                  l.max_node_depth = std::uint32_t(n);
-              }},
-        Limit{"count", k32,
-              [](scene::Limits& l, std::uint64_t n) {
-                  l.max_count = std::uint32_t(n);
-              }},
-        Limit{"vertices", k63,
-              [](scene::Limits& l, std::uint64_t n) {
-                  l.max_vertices = n;
-              }},
-        Limit{"growth", k63,
-              [](scene::Limits& l, std::uint64_t n) {
-                  l.max_growth = n;
-              }},
-    };
+        limitOf<&Limits::max_file_bytes>("file-bytes"), limitOf<&Limits::max_total_bytes>("total-bytes"),
+        limitOf<&Limits::max_image_side>("image-side"), limitOf<&Limits::max_node_depth>("node-depth"),
+        limitOf<&Limits::max_count>("count"),           limitOf<&Limits::max_vertices>("vertices"),
+        limitOf<&Limits::max_growth>("growth")};
     const std::size_t equals = v.text.find('=');
     const std::string_view name = std::string_view(v.text).substr(0, equals);
     std::vector<std::string_view> names;
@@ -91,8 +79,8 @@ void applyLimit(Settings& s, const Value& v)
         }
         const auto number =
             equals == std::string::npos ? std::nullopt : toInteger(std::string_view(v.text).substr(equals + 1));
-        if (!number || *number < 1 || static_cast<double>(*number) > limit.max) {
-            throw UsageError(fmt::format("--limit: {} takes a whole number from 1 to {:.0f}", name, limit.max));
+        if (!number || *number < 1 || *number > limit.max) {
+            throw UsageError(fmt::format("--limit: {} takes a whole number from 1 to {}", name, limit.max));
         }
         limit.set(s.limits, static_cast<std::uint64_t>(*number));
         return;
@@ -141,13 +129,6 @@ void applySamples(Settings& s, const Value& v)
 [[noreturn]] void refuseSweep(std::string_view text, const std::string& why)
 {
     throw UsageError(fmt::format("--sweep: \"{}\": {}", text, why));
-}
-
-/// Any number that what is compared depends on.
-bool canBeSwept(const Setting& setting)
-{
-    return (setting.type == integer || setting.type == real) && setting.group != Group::result &&
-           (setting.subcommands & kCompare) != 0;
 }
 
 const Setting& sweptSetting(std::string_view text, std::string_view key)
@@ -220,17 +201,26 @@ void applySweep(Settings& s, const Value& v)
     s.sweep = Sweep{std::string(setting.key), from, to, static_cast<std::uint32_t>(*steps), logarithmic};
 }
 
+std::vector<Offer> offeredPaths()
+{
+    std::vector<Offer> offers;
+    for (const std::string_view name : pathNames()) {
+        offers.push_back({name, ""});
+    }
+    return offers;
+}
+
 const std::vector<Setting>& rows()
 {
     static const std::vector<Setting> table{
         // clang-format off
-        {.key = "truth", .group = Group::truth, .type = choice, .form = "KIND", .choices = [] { return std::vector<std::string_view>{"hard", "area"}; },
+        {.key = "truth", .group = Group::truth, .type = choice, .form = "KIND", .choices = [] { return Names{"hard", "area"}; },
          .doc = "rays to the light's centre (hard) or over all of it (area)", .subcommands = kRender | kCompare | kView,
          .apply = [](Settings& s, const Value& v) { s.truth = v.text == "hard" ? truth::Kind::hard : truth::Kind::area; }},
         {.key = "samples", .group = Group::truth, .type = integer, .form = "N", .unit = "rays", .default_text = "256", .min = 4, .max = 65536, .multiple_of = truth::kSampleSets,
          .doc = "per pixel and light, a multiple of 4", .subcommands = kRender | kCompare | kView, .used = isArea, .used_when = "--truth area", .apply = applySamples},
         {.key = "truth-pixels", .group = Group::truth, .type = choice, .form = "PART", .default_text = "centre",
-         .choices = [] { return std::vector<std::string_view>{"centre", "area"}; },
+         .choices = [] { return Names{"centre", "area"}; },
          .doc = "at each pixel's centre, or the mean over its area", .subcommands = kRender | kCompare, .used = hasTruth, .used_when = "--truth",
          .apply = [](Settings& s, const Value& v) { s.truth_pixels = v.text == "area" ? truth::PixelTruth::area : truth::PixelTruth::centre; }},
         {.key = "no-cache", .group = Group::truth, .type = flag, .default_text = "0", .doc = "trace anew; neither read nor write the cache of truths",
@@ -245,7 +235,7 @@ const std::vector<Setting>& rows()
          .doc = "frames per second", .subcommands = kMoving, .used = [](const Settings& s) { return s.frames.has_value(); },
          .used_when = "--frames", .apply = [](Settings& s, const Value& v) { s.fps = v.real; }},
         {.key = "path", .group = Group::time, .type = text, .form = "NAME|FILE", .doc = "pan, orbit, dolly, zoom, day or keys: what moves over --frames", .subcommands = kMoving,
-         .apply = [](Settings& s, const Value& v) { s.path = v.text; }},
+         .offers = offeredPaths, .files = "json", .apply = [](Settings& s, const Value& v) { s.path = v.text; }},
         {.key = "path.speed", .group = Group::time, .type = real, .form = "FACTOR", .default_text = "1", .min = 0.001, .max = 1000,
          .doc = "how many seconds of the path pass in one", .subcommands = kMoving, .own_option = false, .used = [](const Settings& s) { return !s.path.empty(); }, .used_when = "--path",
          .apply = [](Settings& s, const Value& v) { s.path_speed = v.real; }},
@@ -253,12 +243,12 @@ const std::vector<Setting>& rows()
          .doc = "draw this many at rest; the last counts", .subcommands = kRender | kCompare, .used = convergesAtRest,
          .used_when = "soften converge and without --frames", .apply = [](Settings& s, const Value& v) { s.converge = static_cast<std::uint32_t>(v.integer); }},
         {.key = "animation", .group = Group::time, .type = text, .form = "NAME", .doc = "which animation of the file plays; else the first",
-         .apply = [](Settings& s, const Value& v) { s.animation = v.text; }},
+         .names_in = [](const scene::Scene& in) { return namesIn(in.animations); }, .apply = [](Settings& s, const Value& v) { s.animation = v.text; }},
 
         {.key = "seed", .group = Group::run, .type = integer, .form = "N", .default_text = "1", .min = 0, .max = 9e15,
          .doc = "everything random", .apply = [](Settings& s, const Value& v) { s.seed = static_cast<std::uint64_t>(v.integer); }},
         {.key = "gpu", .group = Group::run, .type = text, .form = "NAME", .doc = "part of a GPU's name, or software; else the first real one",
-         .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.gpu = v.text; }},
+         .used = draws, .used_when = "something to draw", .offers = [] { return std::vector<Offer>{{"software", "the software rasteriser"}}; }, .apply = [](Settings& s, const Value& v) { s.gpu = v.text; }},
         {.key = "validate", .group = Group::run, .type = flag, .default_text = "0", .doc = "Vulkan validation; a message makes the run fail",
          .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.validate = v.flag; }},
         {.key = "strict", .group = Group::run, .type = flag, .default_text = "0", .doc = "refuse options without effect, which are told else",
@@ -267,17 +257,17 @@ const std::vector<Setting>& rows()
          .apply = applyLimit},
 
         {.key = "out", .group = Group::result, .type = text, .form = "FILE", .doc = "picture (.png, .exr; gnomon.png), last of --frames; folder for all",
-         .subcommands = kRender, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.output = v.text; }},
+         .subcommands = kRender, .command_line_only = true, .letter = 'o', .files = "png exr", .apply = [](Settings& s, const Value& v) { s.output = v.text; }},
         {.key = "mask", .group = Group::result, .type = flag, .default_text = "0", .doc = "write the visibility of one light instead of the picture",
          .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.mask = v.flag; }},
         {.key = "debug", .group = Group::result, .type = choice, .form = "VIEW", .default_text = "none", .choices = debugViewNames,
          .doc = "density faded layers light-count map octree rays steps views", .subcommands = kRender | kView, .apply = [](Settings& s, const Value& v) { s.debug = v.text; }},
         {.key = "light", .group = Group::result, .type = text, .form = "NAME", .doc = "the light that is looked at; else the first", .subcommands = kRender | kPlan | kCompare | kView,
-         .used = judgesALight, .used_when = "--mask, a --debug of one light or --draw, or in compare", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
+         .used = judgesALight, .used_when = "--mask, a --debug of one light or --draw, or in compare", .names_in = [](const scene::Scene& in) { return namesIn(in.lights); }, .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
         {.key = "draw", .group = Group::result, .type = text, .form = "FILE", .doc = "a picture of the light's maps instead of the JSON (.svg)",
-         .subcommands = kPlan, .command_line_only = true, .apply = applyDraw},
+         .subcommands = kPlan, .command_line_only = true, .files = "svg", .apply = applyDraw},
         {.key = "techniques", .group = Group::result, .type = text, .form = "LIST|@FILE", .doc = "which ones: hard,pcf+pcf.kernel=5x5,... or all; @FILE: a line each",
-         .subcommands = kBench | kCompare, .repeatable = true, .separator = ",", .apply = applyTechniques},
+         .subcommands = kBench | kCompare, .repeatable = true, .separator = ",", .offers = [] { return std::vector<Offer>{{"all", "every filter, and pcf with every kernel"}}; }, .apply = applyTechniques},
         {.key = "repetitions", .group = Group::result, .type = integer, .form = "N", .default_text = "11", .min = 1, .max = 100000,
          .doc = "timed frames of each technique", .subcommands = kBench | kCompare,
          .apply = [](Settings& s, const Value& v) { s.repetitions = static_cast<std::uint32_t>(v.integer); }},
@@ -285,21 +275,27 @@ const std::vector<Setting>& rows()
          .doc = "frames of each technique before them", .subcommands = kBench | kCompare,
          .apply = [](Settings& s, const Value& v) { s.warmup = static_cast<std::uint32_t>(v.integer); }},
         {.key = "report", .group = Group::result, .type = text, .form = "DIR", .doc = "folder for a page with pictures and the table",
-         .subcommands = kBench | kCompare, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.report = v.text; }},
+         .subcommands = kBench | kCompare, .command_line_only = true, .files = "/", .apply = [](Settings& s, const Value& v) { s.report = v.text; }},
         {.key = "against", .group = Group::result, .type = text, .form = "FILE", .doc = "what has grown since an earlier --json; status 1 if counters have",
-         .subcommands = kBench, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.against = v.text; }},
+         .subcommands = kBench, .command_line_only = true, .files = "json", .apply = [](Settings& s, const Value& v) { s.against = v.text; }},
         {.key = "equal-error", .group = Group::result, .type = flag, .default_text = "0", .doc = "time the cheapest pcf that is as near to the truth, too",
          .subcommands = kCompare, .apply = [](Settings& s, const Value& v) { s.equal_error = v.flag; }},
         {.key = "sweep", .group = Group::result, .type = text, .form = "KEY=FROM:TO:STEPS[:log]", .doc = "the error of each technique over values of any number",
          .subcommands = kCompare, .apply = applySweep},
         {.key = "json", .group = Group::result, .type = text, .form = "[FILE]", .doc = "JSON to FILE (*.json), or to stdout with - or nothing",
-         .subcommands = kPlan | kBench | kList | kCompare | kMetrics | kGpus, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.json = v.text; }},
+         .subcommands = kPlan | kBench | kList | kCompare | kMetrics | kGpus, .command_line_only = true, .files = "json", .apply = [](Settings& s, const Value& v) { s.json = v.text; }},
         // clang-format on
     };
     return table;
 }
 
 } // namespace
+
+bool canBeSwept(const Setting& setting)
+{
+    return (setting.type == integer || setting.type == real) && setting.group != Group::result &&
+           (setting.subcommands & kCompare) != 0;
+}
 
 void addRunRows(std::vector<Setting>& table)
 {

@@ -6,22 +6,12 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include <algorithm>
-#include <array>
-
 namespace gnomon::app {
 namespace {
 
 using enum SettingType;
 using Group = SettingGroup;
 using Value = SettingValue;
-
-constexpr std::array<std::string_view, 4> kAntiAliasing{"auto", "none", "fxaa", "ssaa4"};
-
-std::vector<std::string_view> antiAliasingNames()
-{
-    return {kAntiAliasing.begin(), kAntiAliasing.end()};
-}
 
 glm::dvec3 vec3(const std::vector<double>& numbers, std::size_t first = 0)
 {
@@ -40,12 +30,11 @@ glm::dvec3 direction(std::string_view key, const glm::dvec3& vector)
 
 void applyAntiAliasing(Settings& s, const Value& v)
 {
-    s.anti_aliasing.reset();
-    for (std::size_t i = 1; i < kAntiAliasing.size(); ++i) {
-        if (kAntiAliasing[i] == v.text) {
-            s.anti_aliasing = static_cast<host::AntiAliasing>(i - 1);
-        }
-    }
+    using enum host::AntiAliasing;
+    s.anti_aliasing = v.text == "auto"   ? std::nullopt
+                      : v.text == "none" ? std::optional(none)
+                      : v.text == "fxaa" ? std::optional(fxaa)
+                                         : std::optional(ssaa4);
 }
 
 /// Else it is measured, and is to stay comparable with what was measured before.
@@ -54,56 +43,11 @@ bool isLookedAt(const Settings& s)
     return (s.subcommand & (kRender | kView)) != 0 && !s.mask;
 }
 
-constexpr std::array<std::string_view, 3> kOcclusion{"auto", "off", "on"};
-
-std::vector<std::string_view> occlusionNames()
-{
-    return {kOcclusion.begin(), kOcclusion.end()};
-}
-void applyOcclusion(Settings& s, const Value& v)
-{
-    s.ambient_occlusion = v.text == "auto" ? std::nullopt : std::optional(v.text == "on");
-}
 /// Ambient occlusion needs a G-buffer and light of the sky. With the ray tracer's masks shading is always deferred.
 bool mayBeOccluded(const Settings& s)
 {
     const bool deferred = s.shading == host::Shading::deferred || s.truth.has_value();
     return !s.mask && deferred && s.reflection == host::Reflection::materials;
-}
-
-constexpr std::array<std::string_view, 2> kToneCurves{"neutral", "filmic"};
-
-std::vector<std::string_view> toneNames()
-{
-    return {kToneCurves.begin(), kToneCurves.end()};
-}
-void applyTone(Settings& s, const Value& v)
-{
-    s.tone = v.text == kToneCurves[1] ? host::ToneCurve::filmic : host::ToneCurve::neutral;
-}
-
-constexpr std::array<std::string_view, 3> kCompactMasks{"none", "4", "8"};
-
-std::vector<std::string_view> compactMaskNames()
-{
-    return {kCompactMasks.begin(), kCompactMasks.end()};
-}
-
-void applyCompactMask(Settings& s, const Value& v)
-{
-    s.compact_mask.channels = v.text == "4" ? 4 : v.text == "8" ? 8 : 0;
-}
-
-constexpr std::array<std::string_view, 2> kTileSides{"16", "32"};
-
-std::vector<std::string_view> tileSideNames()
-{
-    return {kTileSides.begin(), kTileSides.end()};
-}
-
-void applyTileSide(Settings& s, const Value& v)
-{
-    s.compact_mask.side_px = v.text == "32" ? 32 : 16;
 }
 
 void applySpot(Settings& s, const Value& v)
@@ -144,57 +88,9 @@ bool isPicture(const Settings& s)
 {
     return !s.mask;
 }
-constexpr std::array<std::string_view, 2> kReflections{"materials", "phong-2005"};
-
-constexpr std::array<std::string_view, 2> kSkies{"physical", "plain"};
-
-std::vector<std::string_view> skyNames()
-{
-    return {kSkies.begin(), kSkies.end()};
-}
-void applySky(Settings& s, const Value& v)
-{
-    s.sky = v.text == kSkies[1] ? host::SkyModel::plain : host::SkyModel::physical;
-}
-
-constexpr std::array<std::string_view, 2> kShadings{"deferred", "forward"};
-
-std::vector<std::string_view> shadingNames()
-{
-    return {kShadings.begin(), kShadings.end()};
-}
-void applyShading(Settings& s, const Value& v)
-{
-    s.shading = v.text == kShadings[1] ? host::Shading::forward : host::Shading::deferred;
-}
 bool isShadedPicture(const Settings& s)
 {
     return !s.mask && !s.truth.has_value() && (s.debug.empty() || s.debug == "none");
-}
-
-constexpr std::array<std::string_view, 3> kGrounds{"auto", "on", "off"};
-
-std::vector<std::string_view> groundNames()
-{
-    return {kGrounds.begin(), kGrounds.end()};
-}
-void applyGround(Settings& s, const Value& v)
-{
-    s.ground = static_cast<Ground>(std::ranges::find(kGrounds, v.text) - kGrounds.begin());
-}
-std::vector<std::string_view> upAxisNames()
-{
-    return {"y", "z"};
-}
-
-std::vector<std::string_view> reflectionNames()
-{
-    return {kReflections.begin(), kReflections.end()};
-}
-
-void applyReflection(Settings& s, const Value& v)
-{
-    s.reflection = v.text == kReflections[1] ? host::Reflection::phong_2005 : host::Reflection::materials;
 }
 
 bool glows(const Settings& s)
@@ -229,23 +125,23 @@ const std::vector<Setting>& rows()
         // clang-format off
         {.key = "size", .group = Group::picture, .type = size, .form = "WxH", .unit = "pixels", .default_text = "1280x720", .min = 1, .max = 1e6,
          .doc = "width and height of the picture", .apply = [](Settings& s, const Value& v) { s.size_px = {v.numbers[0], v.numbers[1]}; }},
-        {.key = "aa", .group = Group::picture, .type = choice, .form = "MODE", .default_text = "auto", .choices = antiAliasingNames,
+        {.key = "aa", .group = Group::picture, .type = choice, .form = "MODE", .default_text = "auto", .choices = [] { return Names{"auto", "none", "fxaa", "ssaa4"}; },
          .doc = "anti-aliasing: none, fxaa, ssaa4; auto: fxaa, none in bench", .subcommands = kPictures, .used = drawsAPicture, .used_when = "something to draw", .apply = applyAntiAliasing},
-        {.key = "ambient-occlusion", .group = Group::picture, .type = choice, .form = "MODE", .default_text = "auto", .choices = occlusionNames,
+        {.key = "ambient-occlusion", .group = Group::picture, .type = choice, .form = "MODE", .default_text = "auto", .choices = [] { return Names{"auto", "off", "on"}; },
          .doc = "less of the sky's light where surfaces near by hide it: off or on; auto: on, but off in bench", .subcommands = kPictures, .own_option = false, .used = mayBeOccluded,
-         .used_when = "a picture (not --mask), shading deferred and reflection materials", .apply = applyOcclusion},
+         .used_when = "a picture (not --mask), shading deferred and reflection materials", .apply = [](Settings& s, const Value& v) { s.ambient_occlusion = v.text == "auto" ? std::nullopt : std::optional(v.text == "on"); }},
         {.key = "ambient-occlusion.radius", .group = Group::picture, .type = real, .form = "METRES", .unit = "m", .min = 1e-6, .max = 1e6,
          .doc = "how far what hides the sky may be; else found from the sizes of what is in the scene", .subcommands = kPictures, .own_option = false, .used = hasOcclusion,
          .used_when = "ambient occlusion", .apply = [](Settings& s, const Value& v) { s.occlusion_radius_m = v.real; }},
-        {.key = "tone", .group = Group::picture, .type = choice, .form = "CURVE", .default_text = "neutral", .choices = toneNames,
-         .doc = "from light to what a screen shows: neutral keeps hues, filmic has more contrast and turns bright orange to yellow", .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = applyTone},
+        {.key = "tone", .group = Group::picture, .type = choice, .form = "CURVE", .default_text = "neutral", .choices = [] { return Names{"neutral", "filmic"}; },
+         .doc = "from light to what a screen shows: neutral keeps hues, filmic has more contrast and turns bright orange to yellow", .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = [](Settings& s, const Value& v) { s.tone = v.text == "filmic" ? host::ToneCurve::filmic : host::ToneCurve::neutral; }},
         {.key = "dither", .group = Group::picture, .type = flag, .default_text = "1", .doc = "noise of a step of 255 at most, so that gradients have no contours",
          .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = [](Settings& s, const Value& v) { s.dither = v.flag; }},
-        {.key = "compact-mask", .group = Group::picture, .type = choice, .form = "CHANNELS", .default_text = "none", .choices = compactMaskNames,
+        {.key = "compact-mask", .group = Group::picture, .type = choice, .form = "CHANNELS", .default_text = "none", .choices = [] { return Names{"none", "4", "8"}; },
          .doc = "channels of the mask for each tile of the picture, 4 or 8, instead of one for each light: none, 4 or 8", .subcommands = kPictures, .own_option = false, .used = mayBeCompact,
-         .used_when = "a picture with shadows from maps (not --mask, --debug, --truth), soften=none, motion free or snap, translucent=grey and mask-size=full", .apply = applyCompactMask},
-        {.key = "compact-mask.side", .group = Group::picture, .type = choice, .form = "PIXELS", .unit = "pixels", .default_text = "16", .choices = tileSideNames,
-         .doc = "side of such a tile, 16 or 32", .subcommands = kPictures, .own_option = false, .used = isCompact, .used_when = "compact-mask=4 or 8", .apply = applyTileSide},
+         .used_when = "a picture with shadows from maps (not --mask, --debug, --truth), soften=none, motion free or snap, translucent=grey and mask-size=full", .apply = [](Settings& s, const Value& v) { s.compact_mask.channels = v.text == "4" ? 4 : v.text == "8" ? 8 : 0; }},
+        {.key = "compact-mask.side", .group = Group::picture, .type = choice, .form = "PIXELS", .unit = "pixels", .default_text = "16", .choices = [] { return Names{"16", "32"}; },
+         .doc = "side of such a tile, 16 or 32", .subcommands = kPictures, .own_option = false, .used = isCompact, .used_when = "compact-mask=4 or 8", .apply = [](Settings& s, const Value& v) { s.compact_mask.side_px = v.text == "32" ? 32 : 16; }},
         {.key = "bloom", .group = Group::picture, .type = flag, .default_text = "0", .doc = "let what is very bright glow into its surroundings",
          .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = [](Settings& s, const Value& v) { s.bloom.on = v.flag; }},
         {.key = "bloom.threshold", .group = Group::picture, .type = real, .form = "LIGHT", .default_text = "0.8", .min = 0, .max = 64,
@@ -263,32 +159,32 @@ const std::vector<Setting>& rows()
         {.key = "bloom.levels", .group = Group::picture, .type = integer, .form = "N", .default_text = "6", .min = 1, .max = 8,
          .doc = "halvings; each doubles the glow's reach", .subcommands = kPictures, .own_option = false, .used = glows, .used_when = "bloom=1",
          .apply = [](Settings& s, const Value& v) { s.bloom.levels = static_cast<std::uint32_t>(v.integer); }},
-        {.key = "sky", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "physical", .choices = skyNames,
+        {.key = "sky", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "physical", .choices = [] { return Names{"physical", "plain"}; },
          .doc = "physical: air, light and exposure by the sun's height, where there is a sun; or plain: a gradient",
-         .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = applySky},
+         .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = [](Settings& s, const Value& v) { s.sky = v.text == "plain" ? host::SkyModel::plain : host::SkyModel::physical; }},
         {.key = "exposure", .group = Group::picture, .type = real, .form = "STOPS", .unit = "stops", .default_text = "0", .min = -16, .max = 16,
          .doc = "brighter than by the light of the hour; 1 is twice as bright", .subcommands = kPictures, .used = isPicture, .used_when = "a picture, not --mask",
          .apply = [](Settings& s, const Value& v) { s.exposure_ev = v.real; }},
-        {.key = "shading", .group = Group::picture, .type = choice, .form = "ORDER", .default_text = "deferred", .choices = shadingNames,
-         .doc = "by a G-buffer and a mask, or forward, by the maps", .subcommands = kPictures, .used = isShadedPicture, .used_when = "a picture (not --mask, --debug, --truth)", .apply = applyShading},
-        {.key = "reflection", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "materials", .choices = reflectionNames,
-         .doc = "by the scene's materials, or phong-2005: exponent 8, no ambient light, as A. S. Shastry shaded in 2005", .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = applyReflection},
-        {.key = "ground", .group = Group::picture, .type = choice, .form = "WHEN", .default_text = "auto", .choices = groundNames, .bare_text = "on",
-         .doc = "put a ground under the scene; auto: under a file without one", .apply = applyGround},
-        {.key = "up-axis", .group = Group::picture, .type = choice, .form = "AXIS", .default_text = "y", .choices = upAxisNames,
+        {.key = "shading", .group = Group::picture, .type = choice, .form = "ORDER", .default_text = "deferred", .choices = [] { return Names{"deferred", "forward"}; },
+         .doc = "by a G-buffer and a mask, or forward, by the maps", .subcommands = kPictures, .used = isShadedPicture, .used_when = "a picture (not --mask, --debug, --truth)", .apply = [](Settings& s, const Value& v) { s.shading = v.text == "forward" ? host::Shading::forward : host::Shading::deferred; }},
+        {.key = "reflection", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "materials", .choices = [] { return Names{"materials", "phong-2005"}; },
+         .doc = "by the scene's materials, or phong-2005: exponent 8, no ambient light, as A. S. Shastry shaded in 2005", .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = [](Settings& s, const Value& v) { s.reflection = v.text == "phong-2005" ? host::Reflection::phong_2005 : host::Reflection::materials; }},
+        {.key = "ground", .group = Group::picture, .type = choice, .form = "WHEN", .default_text = "auto", .choices = [] { return Names{"auto", "on", "off"}; }, .bare_text = "on",
+         .doc = "put a ground under the scene; auto: under a file without one", .apply = [](Settings& s, const Value& v) { s.ground = v.text == "on" ? Ground::on : v.text == "off" ? Ground::off : Ground::automatic; }},
+        {.key = "up-axis", .group = Group::picture, .type = choice, .form = "AXIS", .default_text = "y", .choices = [] { return Names{"y", "z"}; },
          .doc = "which axis of a file is up: y, as glTF has it, or z", .apply = [](Settings& s, const Value& v) { s.up_axis = v.text == "z" ? UpAxis::z : UpAxis::y; }},
         {.key = "blended", .group = Group::picture, .type = choice, .form = "AS", .default_text = "coverage",
-         .choices = [] { return std::vector<std::string_view>{"coverage", "stained"}; },
+         .choices = [] { return Names{"coverage", "stained"}; },
          .doc = "light that blended surfaces take: coverage, or stained",
          .apply = [](Settings& s, const Value& v) { s.stained = v.text == "stained"; }},
         {.key = "object", .group = Group::picture, .type = text, .form = "NAME:KEY=VALUE,...",
          .doc = "NAME:KEY=VALUE,... of an object: casts, receives, moves, bias_m, groups (0+3); with ; between several objects", .own_option = false, .repeatable = true, .separator = ";", .apply = applyObjects},
         {.key = "override-material", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "none",
-         .choices = [] { return std::vector<std::string_view>{"none", "diffuse"}; }, .doc = "draw everything in one material: none or diffuse",
+         .choices = [] { return Names{"none", "diffuse"}; }, .doc = "draw everything in one material: none or diffuse",
          .subcommands = kDraw, .apply = [](Settings& s, const Value& v) { s.material_override = v.text == "none" ? "" : v.text; }},
 
         {.key = "camera", .group = Group::camera, .type = text, .form = "NAME", .doc = "a camera or view of the scene by its name",
-         .apply = [](Settings& s, const Value& v) { s.camera = v.text; }},
+         .names_in = [](const scene::Scene& in) { return namesIn(in.views, in.cameras); }, .apply = [](Settings& s, const Value& v) { s.camera = v.text; }},
         {.key = "eye", .group = Group::camera, .type = numbers, .form = "x,y,z", .unit = "m", .min = -kFarthest, .max = kFarthest, .count = 3,
          .doc = "where the camera is", .apply = [](Settings& s, const Value& v) { s.eye_ws = vec3(v.numbers); }},
         {.key = "target", .group = Group::camera, .type = numbers, .form = "x,y,z", .unit = "m", .min = -kFarthest, .max = kFarthest, .count = 3,
@@ -303,23 +199,23 @@ const std::vector<Setting>& rows()
 
         {.key = "sun", .group = Group::light, .type = numbers, .form = "x,y,z", .min = -kFarthest, .max = kFarthest, .count = 3,
          .doc = "direction the light travels; replaces the scene's lights",
-         .apply = [](Settings& s, const Value& v) { s.sun_ws = direction("sun", vec3(v.numbers)); }},
+         .of_lights = "directional", .apply = [](Settings& s, const Value& v) { s.sun_ws = direction("sun", vec3(v.numbers)); }},
         {.key = "spot", .group = Group::light, .type = numbers, .form = "x,y,z,tx,ty,tz,DEG", .unit = "m, degrees", .min = -kFarthest, .max = kFarthest, .count = 7,
-         .doc = "spot light: place, target, whole cone; replaces the scene's lights", .apply = applySpot},
+         .doc = "spot light: place, target, whole cone; replaces the scene's lights", .of_lights = "spot", .apply = applySpot},
         {.key = "point", .group = Group::light, .type = numbers, .form = "x,y,z,RANGE,...", .unit = "m", .min = -kFarthest, .max = kFarthest, .count = kNumbersOfPoint * kMostPoints, .min_count = kNumbersOfPoint,
-         .doc = "place and reach of each point light; replaces the scene's lights", .apply = applyPoint},
+         .doc = "place and reach of each point light; replaces the scene's lights", .of_lights = "point", .apply = applyPoint},
         {.key = "sun-angle", .group = Group::light, .type = real, .form = "DEG", .unit = "degrees", .min = 0, .max = 90,
          .doc = "angular diameter of directional lights; else their own, or 0.53", .subcommands = kFrames, .used = lightHasSize, .used_when = "--truth area, filter pcss or raymarch, penumbra light, filter or soften smoothies, or soften converge",
-         .apply = [](Settings& s, const Value& v) { s.sun_angle_deg = v.real; }},
+         .of_lights = "directional", .apply = [](Settings& s, const Value& v) { s.sun_angle_deg = v.real; }},
         {.key = "light-size", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
          .doc = "diameter of spot and point lights, spheres; else their own, or 0", .subcommands = kFrames, .used = lightHasSize, .used_when = "--truth area, filter pcss or raymarch, penumbra light, filter or soften smoothies, or soften converge",
-         .apply = [](Settings& s, const Value& v) { s.light_size_m = v.real; }},
+         .of_lights = "spot point", .apply = [](Settings& s, const Value& v) { s.light_size_m = v.real; }},
         {.key = "spot.cone", .group = Group::light, .type = real, .form = "DEG", .unit = "degrees", .min = 0.1, .max = 180,
-         .doc = "the whole cone of spot lights; else their own", .own_option = false, .apply = [](Settings& s, const Value& v) { s.cone_deg = v.real; }},
+         .doc = "the whole cone of spot lights; else their own", .own_option = false, .of_lights = "spot", .apply = [](Settings& s, const Value& v) { s.cone_deg = v.real; }},
         {.key = "spot.near", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
-         .doc = "nothing nearer to a spot light casts; else its own, or found from what casts", .own_option = false, .apply = [](Settings& s, const Value& v) { s.near_m = v.real; }},
+         .doc = "nothing nearer to a spot light casts; else its own, or found from what casts", .own_option = false, .of_lights = "spot", .apply = [](Settings& s, const Value& v) { s.near_m = v.real; }},
         {.key = "spot.range", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
-         .doc = "reach of spot lights; else their own, or as far as the scene goes", .own_option = false, .apply = [](Settings& s, const Value& v) { s.range_m = v.real; }},
+         .doc = "reach of spot lights; else their own, or as far as the scene goes", .own_option = false, .of_lights = "spot", .apply = [](Settings& s, const Value& v) { s.range_m = v.real; }},
         {.key = "light-groups", .group = Group::light, .type = text, .form = "NAME:GROUP+...",
          .doc = "the groups of casters that a light makes shadows of, 0 to 31; else its own, or all", .own_option = false, .repeatable = true, .separator = ";", .apply = applyLightGroups},
         // clang-format on

@@ -7,18 +7,20 @@
 
 #include <gnomon/world_range.h>
 
+#include <algorithm>
+#include <iterator>
 #include <vector>
 
 namespace gnomon::app {
 
-/// The names of an enum's first `count` values, in their order.
-template <typename Enum>
-std::vector<std::string_view> enumNames(std::uint8_t count)
+using Names = std::vector<std::string_view>;
+
+/// The names of all that the lists have, in their order.
+template <typename... Lists>
+std::vector<std::string> namesIn(const Lists&... lists)
 {
-    std::vector<std::string_view> names;
-    for (std::uint8_t i = 0; i < count; ++i) {
-        names.push_back(nameOf(static_cast<Enum>(i)));
-    }
+    std::vector<std::string> names;
+    (std::ranges::transform(lists, std::back_inserter(names), [](const auto& one) { return one.name; }), ...);
     return names;
 }
 

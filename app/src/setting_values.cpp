@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "setting_values.h"
 
-#include <gnomon/choices.h>
+#include <gnomon/choice_rules.h>
 
 #include <fmt/format.h>
 
@@ -20,17 +20,9 @@ namespace {
     throw UsageError(fmt::format("{}: \"{}\" is not {}", spelled(setting), text, expected));
 }
 
-std::string rangeText(const Setting& setting)
-{
-    return fmt::format("{} to {}{}{}", setting.min, setting.max, setting.unit.empty() ? "" : " ", setting.unit);
-}
-
 /// A hint for a technique's value that belongs to another choice than the one it was given to.
 std::optional<std::string> elsewhere(const Setting& setting, std::string_view text)
 {
-    const auto isChoice = [](std::string_view key) {
-        return std::ranges::any_of(choiceValues(), [&](const ChoiceValue& row) { return row.choice == key; });
-    };
     std::set<std::string_view> names;
     for (const ChoiceValue& row : choiceValues()) {
         if (row.name == text && row.choice != "light") {
@@ -141,6 +133,16 @@ std::size_t editDistance(std::string_view a, std::string_view b)
 }
 
 } // namespace
+
+bool isChoice(std::string_view key)
+{
+    return std::ranges::find(kChoiceNames, key) != kChoiceNames.end();
+}
+
+std::string rangeText(const Setting& setting)
+{
+    return fmt::format("{} to {}{}{}", setting.min, setting.max, setting.unit.empty() ? "" : " ", setting.unit);
+}
 
 std::optional<double> toNumber(std::string_view text)
 {

@@ -12,6 +12,8 @@ namespace gnomon::app {
 [[nodiscard]] std::optional<double> toNumber(std::string_view text);
 [[nodiscard]] std::optional<std::int64_t> toInteger(std::string_view text);
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
+/// "1 to 8 texels". Precondition: it has a range.
+[[nodiscard]] std::string rangeText(const Setting& setting);
 /// Throws UsageError.
 [[nodiscard]] SettingValue parseValue(const Setting& setting, std::string_view text);
 /// The text in which a value is kept and shown: numbers and flags in one form, however they were typed.

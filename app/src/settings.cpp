@@ -3,6 +3,7 @@
 
 #include "app/scripted_path.h"
 #include "contestants.h"
+#include "setting_rows.h"
 #include "setting_values.h"
 
 #include <gnomon/choices.h>
@@ -89,6 +90,18 @@ void noteTakenBack(Settings& settings, const Setting& setting)
 }
 
 } // namespace
+
+std::span<const Setting> settingTable()
+{
+    static const std::vector<Setting> table = [] {
+        std::vector<Setting> made;
+        addSceneRows(made);
+        addTechniqueRows(made);
+        addRunRows(made);
+        return made;
+    }();
+    return table;
+}
 
 void applyValue(Settings& settings, const Setting& setting, const SettingValue& value)
 {

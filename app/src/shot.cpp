@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/shot.h"
 
-#include "framing.h"
 #include "object_casting.h"
-#include "shot_camera.h"
-#include "shot_ground.h"
-#include "shot_light.h"
-#include "shot_notices.h"
-#include "shot_range.h"
-#include "shot_volumes.h"
+#include "shot_parts.h"
 
 #include "scene/range.h"
 #include "worlds/worlds.h"

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "shot_camera.h"
-
-#include "framing.h"
+#include "shot_parts.h"
 
 #include <gnomon/error.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "shot_ground.h"
+#include "shot_parts.h"
 
 #include <gnomon/world_range.h>
 

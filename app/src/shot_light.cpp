@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of a shot's lights is meant, which of too many are taken, and whether what was said of lights applies to any.
-#include "shot_light.h"
+// The lights of a shot: the one that is meant, those that are taken of too many, whether what was said of lights
+// applies to any, and whether they are near enough.
+#include "shot_parts.h"
+
+#include "scene/range.h"
+
+#include <gnomon/error.h>
+#include <gnomon/world_range.h>
 
 #include <fmt/format.h>
 
@@ -105,6 +111,26 @@ std::string leftOutSentence(const Shot& shot)
 {
     return fmt::format("{} lights are in sight, and {} is the most: {} that give the least here are left out",
                        shot.lights.size() + shot.lights_left_out, host::kMaxLights, shot.lights_left_out);
+}
+
+void requireInRange(const Shot& shot, const Settings& settings)
+{
+    const std::string tried = "drawing " + settings.scene;
+    scene::requireInRange(shot.state, tried);
+    const auto require = [&](const std::string& what, bool in_range) {
+        if (!in_range) {
+            throw Error(tried, fmt::format("{} is more than {} m", what, kFarthestPlace_m));
+        }
+    };
+    require("the camera's distance from the origin", !isTooFar(shot.eye.position_ws));
+    for (const host::ShadedLight& light : shot.lights) {
+        const Light& caster = light.caster;
+        if (caster.type != LightType::directional && caster.casts_shadow) {
+            require(fmt::format("the distance of light {} from the origin", light.name), !isTooFar(caster.position_ws));
+            require(fmt::format("the range of light {}", light.name), caster.range_m <= kFarthestPlace_m);
+            require(fmt::format("the radius of light {}", light.name), caster.radius_m <= kFarthestPlace_m);
+        }
+    }
 }
 
 } // namespace gnomon::app

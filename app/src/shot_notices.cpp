@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "shot_notices.h"
+#include "shot_parts.h"
 
 #include "contestants.h"
-#include "light_extent.h"
-#include "taken_light.h"
 
 #include "scene/hash.h"
 
@@ -157,6 +155,18 @@ void noteWhatSurprises(Shot& shot, const Settings& settings)
         tellNoEffect(settings, shot.notices,
                      "--fov has no effect on an orthographic camera; --ortho sets how much it sees");
     }
+}
+
+std::optional<std::string> waitNote(const lab::Waits& waits)
+{
+    if (waits.longest_frames == 0) {
+        return std::nullopt;
+    }
+    return fmt::format("lights keep maps that they had until their turn comes: up to {} light{} and {} map{} in a "
+                       "frame, for {} frame{} at the longest; frames after the first draw {} texels at most",
+                       waits.most_lights, waits.most_lights == 1 ? "" : "s", waits.most_maps,
+                       waits.most_maps == 1 ? "" : "s", waits.longest_frames, waits.longest_frames == 1 ? "" : "s",
+                       waits.most_texels);
 }
 
 } // namespace gnomon::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "shot_volumes.h"
+#include "shot_parts.h"
 
 #include "contestants.h"
 

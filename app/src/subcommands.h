@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/settings.h"
+#include "result_json.h"
 
 #include <string_view>
 
@@ -18,6 +19,11 @@ int runGpus(const Settings& settings);
 int runView(const Settings& settings);
 int runCompletion(const Settings& settings);
 int runMan(const Settings& settings);
+
+// Results in memory, as the JSON that is printed. Notices go to standard error and a report to its folder; nothing goes
+// to standard output or to the file of --json.
+[[nodiscard]] Json findByComparing(const Settings& settings);
+[[nodiscard]] Json findByTiming(const Settings& settings); // bench
 
 /// Writes to the file, or to stdout for "-" and "".
 void writeResult(const std::string& file, std::string_view text);

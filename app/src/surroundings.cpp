@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surroundings.h"
+#include "shot_parts.h"
 
 #include <glm/geometric.hpp>
 

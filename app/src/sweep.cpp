@@ -3,10 +3,9 @@
 
 #include "app/shot.h"
 #include "compare_table.h"
+#include "report_pages.h"
 #include "setting_values.h"
 #include "technique_json.h"
-
-#include "lab/report.h"
 
 #include <fmt/format.h>
 
@@ -49,12 +48,6 @@ bool applyPoint(Settings& settings, const Setting& setting, double value)
 }
 
 /// "#0072b2"
-std::string colourText(lab::ErrorClass error_class)
-{
-    const auto rgb = lab::classRgb(error_class);
-    return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
-}
-
 } // namespace
 
 SweepPlan planSweep(const Sweep& sweep, const std::vector<Settings>& techniques)
@@ -146,11 +139,7 @@ Json sweepJson(const SweepResult& result)
               {"unit", result.plan.unit.empty() ? Json(nullptr) : Json(result.plan.unit)},
               {"logarithmic", result.plan.logarithmic},
               {"values", result.plan.values}};
-    json["class_colours"] = {{"edge", colourText(lab::ErrorClass::edge)},
-                             {"acne", colourText(lab::ErrorClass::acne)},
-                             {"detached", colourText(lab::ErrorClass::detached)},
-                             {"bleeding", colourText(lab::ErrorClass::bleeding)},
-                             {"terminator", colourText(lab::ErrorClass::terminator)}};
+    json["class_colours"] = pageLegends().at("classes");
     json["results"] = Json::array();
     for (std::size_t i = 0; i < result.plan.lines.size(); ++i) {
         Json line{{"technique", result.plan.lines[i].technique}};

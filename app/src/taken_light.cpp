@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: T. Möller, B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997; directions and points by
 // M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
-#include "taken_light.h"
+#include "shot_parts.h"
 
 #include "command_text.h"
 

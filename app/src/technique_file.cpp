@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "technique_file.h"
+#include "technique_text.h"
 
 #include "setting_values.h"
 

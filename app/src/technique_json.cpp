@@ -15,11 +15,22 @@
 namespace gnomon::app {
 namespace {
 
+/// A stage of lab::StageTimes by its name in results.
+struct Stage {
+    std::string_view name;
+    std::optional<double> lab::StageTimes::*member;
+};
 constexpr std::array kStages{Stage{"plan", &lab::StageTimes::plan}, Stage{"maps", &lab::StageTimes::maps},
                              Stage{"filter", &lab::StageTimes::filter}, Stage{"mask", &lab::StageTimes::mask},
                              Stage{"frame", &lab::StageTimes::frame}};
 
 using Record = vulkan::PassRecord;
+/// A count of each pass by its name in results.
+struct PassCount {
+    std::string_view name;
+    std::uint64_t (*of)(const Record&);
+    bool by_device; // nothing where PassRecord::has_statistics is false
+};
 constexpr std::array kPassCounts{
     PassCount{"vertex_invocations", [](const Record& r) { return r.vertex_invocations; }, true},
     PassCount{"primitives", [](const Record& r) { return r.primitives; }, true},
@@ -34,13 +45,7 @@ double rounded(double value)
     return std::round(value * 1e4) / 1e4;
 }
 
-} // namespace
-
-std::span<const Stage> stages()
-{
-    return kStages;
-}
-
+/// Milliseconds; zeros without samples, nothing where the device does not measure it.
 std::optional<lab::Spread> spreadOfStage(const std::vector<host::FrameTimes>& samples, const Stage& stage)
 {
     std::vector<std::optional<double>> values;
@@ -50,6 +55,8 @@ std::optional<lab::Spread> spreadOfStage(const std::vector<host::FrameTimes>& sa
     }
     return lab::spreadOfMeasured(values);
 }
+
+} // namespace
 
 std::vector<std::string> notMeasured(const std::vector<host::FrameTimes>& samples)
 {
@@ -88,15 +95,6 @@ double frameMedian(const std::vector<host::FrameTimes>& samples)
     return spreadOfStage(samples, kStages.back()).value_or(lab::Spread()).median;
 }
 
-std::uint64_t totalBytes(const MemoryByPurpose& memory)
-{
-    std::uint64_t total = 0;
-    for (const auto& [purpose, bytes] : memory) {
-        total += bytes;
-    }
-    return total;
-}
-
 void addTimes(Json& json, const std::string& prefix, const std::vector<host::FrameTimes>& samples)
 {
     for (const Stage& stage : kStages) {
@@ -109,11 +107,14 @@ void addTimes(Json& json, const std::string& prefix, const std::vector<host::Fra
 
 void addMemory(Json& json, const MemoryByPurpose& memory)
 {
-    json["memory_bytes"] = totalBytes(memory);
-    json["memory_by_purpose_bytes"] = Json::object();
+    std::uint64_t total = 0;
+    Json by_purpose = Json::object();
     for (const auto& [purpose, bytes] : memory) {
-        json["memory_by_purpose_bytes"][purpose] = bytes;
+        total += bytes;
+        by_purpose[purpose] = bytes;
     }
+    json["memory_bytes"] = total;
+    json["memory_by_purpose_bytes"] = std::move(by_purpose);
 }
 
 Json mapJson(const MapPages& atlas, const ShadowOptions& options)
@@ -132,35 +133,17 @@ Json mapJson(const MapPages& atlas, const ShadowOptions& options)
             {"mip_levels", levels}};
 }
 
-double filterRatio(const vulkan::FilterCost& filter)
-{
-    return filter.bytes_minimum == 0
-               ? 0.0
-               : static_cast<double>(filter.bytes_moved) / static_cast<double>(filter.bytes_minimum);
-}
-
-std::optional<CascadePass> cascadePassOf(const lab::Timed& timed)
+Json cascadePassJson(const lab::Timed& timed)
 {
     if (!timed.samples.empty() && timed.samples.back().reuse.together > 0) {
-        return CascadePass::layered;
+        return nameOf(CascadePass::layered);
     }
     for (std::uint32_t i = 0; i < timed.plan.views.size(); ++i) {
         if (viewsTogether(timed.plan, i, true) > 1) {
-            return CascadePass::each;
+            return nameOf(CascadePass::each);
         }
     }
-    return std::nullopt;
-}
-
-Json cascadePassJson(const lab::Timed& timed)
-{
-    const auto pass = cascadePassOf(timed);
-    return pass ? Json(nameOf(*pass)) : Json(nullptr);
-}
-
-std::span<const PassCount> passCounts()
-{
-    return kPassCounts;
+    return nullptr;
 }
 
 Json passesJson(const lab::Timed& timed)
@@ -211,7 +194,8 @@ Json sharedUnitsJson()
 Json countersJson(const lab::Counters& counters)
 {
     const vulkan::FilterCost& filter = counters.filter;
-    const double ratio = filterRatio(filter);
+    const double least = static_cast<double>(filter.bytes_minimum);
+    const double ratio = least > 0.0 ? static_cast<double>(filter.bytes_moved) / least : 0.0;
     const auto counted = [&](std::uint64_t count) {
         return counters.has_statistics ? Json(count) : Json(nullptr);
     };

@@ -27,18 +27,8 @@ using MemoryByPurpose = std::vector<std::pair<std::string, std::uint64_t>>;
 [[nodiscard]] Json numberJson(const std::optional<double>& value);
 [[nodiscard]] Json vectorJson(const glm::dvec3& vector);
 
-/// A stage of lab::StageTimes by its name in results. In order; the last is the whole frame.
-struct Stage {
-    std::string_view name;
-    std::optional<double> lab::StageTimes::*member;
-};
-[[nodiscard]] std::span<const Stage> stages();
-/// Milliseconds; zeros without samples, nothing where the device does not measure it.
-[[nodiscard]] std::optional<lab::Spread> spreadOfStage(const std::vector<host::FrameTimes>& samples,
-                                                       const Stage& stage);
 /// Median of the whole frame, ms; 0 without samples.
 [[nodiscard]] double frameMedian(const std::vector<host::FrameTimes>& samples);
-[[nodiscard]] std::uint64_t totalBytes(const MemoryByPurpose& memory);
 
 /// Sentences about measurements that the device lacks for these frames; empty when it measured all.
 [[nodiscard]] std::vector<std::string> notMeasured(const std::vector<host::FrameTimes>& samples);
@@ -55,19 +45,8 @@ void addMemory(Json& json, const MemoryByPurpose& memory);
 /// "bytes_minimum"}]. Passes of one name are one, as the stages are. Null: iqr_ms of one sample, share where the clock
 /// measured no frame, times and counts that the device did not give, and members that are not defined for the pass.
 [[nodiscard]] Json passesJson(const lab::Timed& timed);
-/// A count of each pass by its name in results.
-struct PassCount {
-    std::string_view name;
-    std::uint64_t (*of)(const vulkan::PassRecord&);
-    bool by_device; // nothing where PassRecord::has_statistics is false
-};
-[[nodiscard]] std::span<const PassCount> passCounts();
-/// How the maps of cascades were drawn when these times were taken; nothing where there are none, or never two at once.
-[[nodiscard]] std::optional<CascadePass> cascadePassOf(const lab::Timed& timed);
-/// The name of cascadePassOf(), or null.
+/// How the maps of cascades were drawn when these times were taken; null where there are none, or never two at once.
 [[nodiscard]] Json cascadePassJson(const lab::Timed& timed);
-/// The bytes that the blur moved divided by the least that it needs; 0 where nothing is blurred.
-[[nodiscard]] double filterRatio(const vulkan::FilterCost& filter);
 [[nodiscard]] Json countersJson(const lab::Counters& counters);
 /// How many maps and objects frames drew, kept or culled: a row for each member of vulkan::MapReuse, means per frame.
 struct ReuseCounter {

@@ -103,6 +103,9 @@ Setting biasSetting()
         return findOption("bias.constant")->used(s.shadow); // a rule for one of its parts holds for all
     };
     setting.used_when = findOption("bias.constant")->used_when;
+    setting.offers = [] {
+        return std::vector<Offer>{{"auto", ""}, {"none", ""}};
+    };
     setting.apply = applyBias;
     return setting;
 }

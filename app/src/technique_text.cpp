@@ -84,12 +84,6 @@ TechniquePart partOf(std::string_view text, std::string_view piece)
                                  text, piece, suggestion(piece, names)));
 }
 
-bool isChoice(std::string_view key)
-{
-    const auto values = choiceValues();
-    return std::any_of(values.begin(), values.end(), [&](const ChoiceValue& row) { return row.choice == key; });
-}
-
 /// The border that nobody asked for.
 double usualBorder(ShadowOptions options)
 {

@@ -28,4 +28,9 @@ void requireTechnique(const Settings& settings, std::string_view text);
 /// The parts that change nothing in `technique`, which has them and the rest: a sentence each.
 [[nodiscard]] std::vector<std::string> partsWithoutEffect(const Settings& technique, std::string_view text);
 
+/// --techniques @FILE: adds the file's techniques to those of the settings, and notes the line of each. Blanks around a
+/// technique, empty lines and text after a # are ignored. A plain file of at most 256 KiB with at most 1000 techniques.
+/// Throws UsageError that names file and line; Error when the file cannot be read.
+void applyTechniqueFile(Settings& settings, std::string_view file);
+
 } // namespace gnomon::app

@@ -6,127 +6,137 @@
 namespace gnomon {
 namespace {
 
-bool goesAround(Partition partition)
+constexpr bool kNeeds = true;
+constexpr bool kRefuses = false;
+
+template <class Enum>
+constexpr std::uint8_t choiceNumber(Enum value)
 {
-    return partition == Partition::cube || partition == Partition::paraboloid || partition == Partition::multi ||
-           partition == Partition::automatic;
+    return static_cast<std::uint8_t>(value);
 }
 
-bool isParaboloid(const Technique& technique)
+template <class... Enums>
+constexpr std::uint32_t choiceBits(Enums... values)
 {
-    return technique.partition == Partition::paraboloid;
-}
-
-bool isOfScene(const Technique& technique)
-{
-    return technique.fit == Fit::scene;
-}
-
-bool isVolumes(const Technique& technique)
-{
-    return technique.filter == Filter::volumes;
+    return (0U | ... | (1U << choiceNumber(values)));
 }
 
 constexpr std::array kRules{
-    ChoiceRule{
-        [](LightType light, const Technique& t) {
-            return light == LightType::point && !goesAround(t.partition) && !isVolumes(t);
-        },
-        "light point with every partition but cube, paraboloid, multi and auto, filter volumes apart",
-        "a point light, or a spot light wider than 120 degrees, shines farther around than one frustum holds; it needs "
-        "partition cube, paraboloid, multi or auto"},
-    ChoiceRule{[](LightType light, const Technique& t) {
-                   return light == LightType::directional && t.partition == Partition::cube;
-               },
-               "partition cube with light directional",
+    ChoiceRule{Choice::light, choiceNumber(LightType::point), Choice::partition,
+               choiceBits(Partition::cube, Partition::paraboloid, Partition::multi, Partition::automatic), kNeeds,
+               "a point light, or a spot light wider than 120 degrees, shines farther around than one frustum "
+               "holds; it needs partition cube, paraboloid, multi or auto",
+               Filter::volumes},
+    ChoiceRule{Choice::partition, choiceNumber(Partition::cube), Choice::light, choiceBits(LightType::directional),
+               kRefuses,
                "cube is the six faces around a light that has a place; a sun needs another partition, or auto"},
-    ChoiceRule{[](LightType, const Technique& t) { return t.partition == Partition::sdsm && t.motion != Motion::free; },
-               "partition sdsm with every motion but free",
+    ChoiceRule{Choice::partition, choiceNumber(Partition::sdsm), Choice::motion, choiceBits(Motion::free), kNeeds,
                "sdsm fits its maps on the GPU to each frame's depth buffer, so nobody can hold them still; it needs "
                "motion free"},
-    ChoiceRule{[](LightType, const Technique& t) {
-                   return t.partition == Partition::multi && t.motion != Motion::free && t.motion != Motion::snap;
-               },
-               "partition multi with every motion but free and snap",
+    ChoiceRule{Choice::partition, choiceNumber(Partition::multi), Choice::motion,
+               choiceBits(Motion::free, Motion::snap), kNeeds,
                "multi gives each frame the frustums that its picture asks for, and those of two positions of a sun are "
-               "not the "
-               "same; it needs motion free or snap"},
-    ChoiceRule{[](LightType, const Technique& t) {
-                   return isParaboloid(t) && t.filter != Filter::hard && t.filter != Filter::pcf &&
-                          t.filter != Filter::automatic;
-               },
-               "partition paraboloid with every filter but hard, pcf and auto",
-               "paraboloid bends straight lines, and is no more than a baseline: its maps hold depths that are "
-               "compared one by "
-               "one; it needs filter hard, pcf or auto, which is pcf then"},
-    ChoiceRule{[](LightType, const Technique& t) {
-                   return isParaboloid(t) && t.fit != Fit::uniform && t.fit != Fit::automatic;
-               },
-               "partition paraboloid with every fit but uniform and auto",
+               "not the same; it needs motion free or snap"},
+    ChoiceRule{
+        Choice::partition, choiceNumber(Partition::paraboloid), Choice::filter,
+        choiceBits(Filter::hard, Filter::pcf, Filter::automatic), kNeeds,
+        "paraboloid bends straight lines, and is no more than a baseline: its maps hold depths that are compared "
+        "one by one; it needs filter hard, pcf or auto, which is pcf then"},
+    ChoiceRule{Choice::partition, choiceNumber(Partition::paraboloid), Choice::fit,
+               choiceBits(Fit::uniform, Fit::automatic), kNeeds,
                "paraboloid has no frustum that a fit could shape; it needs fit uniform or auto, which is uniform then"},
-    ChoiceRule{[](LightType, const Technique& t) { return isParaboloid(t) && t.motion != Motion::free; },
-               "partition paraboloid with every motion but free",
+    ChoiceRule{Choice::partition, choiceNumber(Partition::paraboloid), Choice::motion, choiceBits(Motion::free), kNeeds,
                "paraboloid is no more than a baseline, and nothing of it is held still; it needs motion free"},
-    ChoiceRule{[](LightType, const Technique& t) { return isParaboloid(t) && t.soften == Soften::converge; },
-               "partition paraboloid with soften converge",
+    ChoiceRule{Choice::partition, choiceNumber(Partition::paraboloid), Choice::soften, choiceBits(Soften::converge),
+               kRefuses,
                "paraboloid cannot move its texels over what it shows, as converge does from frame to frame; it needs "
                "soften none"},
+    ChoiceRule{Choice::partition, choiceNumber(Partition::paraboloid), Choice::light, choiceBits(LightType::point),
+               kNeeds,
+               "paraboloid is the two half spaces around a point light; a sun or a spot light needs another partition, "
+               "or auto"},
+    ChoiceRule{Choice::partition, choiceNumber(Partition::paraboloid), Choice::soften, choiceBits(Soften::smoothies),
+               kRefuses,
+               "paraboloid bends straight lines, and smoothies measure along straight ones how far an edge is; it "
+               "needs soften none"},
     ChoiceRule{
-        [](LightType light, const Technique& t) { return isParaboloid(t) && light != LightType::point; },
-        "partition paraboloid with every light but point",
-        "paraboloid is the two half spaces around a point light; a sun or a spot light needs another partition, or "
-        "auto"},
-    ChoiceRule{
-        [](LightType, const Technique& t) { return isParaboloid(t) && t.soften == Soften::smoothies; },
-        "partition paraboloid with soften smoothies",
-        "paraboloid bends straight lines, and smoothies measure along straight ones how far an edge is; it needs "
-        "soften none"},
-    ChoiceRule{[](LightType, const Technique& t) {
-                   return t.soften == Soften::smoothies && t.filter != Filter::hard && t.filter != Filter::pcf &&
-                          t.filter != Filter::automatic;
-               },
-               "soften smoothies with every filter but hard, pcf and auto",
-               "smoothies lie beside a map of depths that are compared one by one; other filters have a softness of "
-               "their own, "
-               "and filter smoothies has them already. They need filter hard, pcf or auto, which is pcf then"},
-    ChoiceRule{[](LightType, const Technique& t) {
-                   return isOfScene(t) && t.partition != Partition::single && t.partition != Partition::automatic;
-               },
-               "fit scene with every partition but single and auto",
+        Choice::soften, choiceNumber(Soften::smoothies), Choice::filter,
+        choiceBits(Filter::hard, Filter::pcf, Filter::automatic), kNeeds,
+        "smoothies lie beside a map of depths that are compared one by one; other filters have a softness of "
+        "their own, and filter smoothies has them already. They need filter hard, pcf or auto, which is pcf then"},
+    ChoiceRule{Choice::fit, choiceNumber(Fit::scene), Choice::partition,
+               choiceBits(Partition::single, Partition::automatic), kNeeds,
                "scene is one map around all of the scene, whatever is seen of it; it needs partition single or auto, "
                "which is single then"},
-    ChoiceRule{[](LightType light, const Technique& t) { return isOfScene(t) && light != LightType::directional; },
-               "fit scene with every light but directional",
-               "scene backs a sun out until all of the scene is before it; a light with a place stands where it "
-               "stands, and needs another fit"},
-    ChoiceRule{[](LightType, const Technique& t) { return isOfScene(t) && t.soften == Soften::converge; },
-               "fit scene with soften converge",
+    ChoiceRule{
+        Choice::fit, choiceNumber(Fit::scene), Choice::light, choiceBits(LightType::directional), kNeeds,
+        "scene backs a sun out until all of the scene is before it; a light with a place stands where it stands, "
+        "and needs another fit"},
+    ChoiceRule{Choice::fit, choiceNumber(Fit::scene), Choice::soften, choiceBits(Soften::converge), kRefuses,
                "converge moves its maps in each frame, and those of scene stay as they are; it needs another fit"},
-    ChoiceRule{[](LightType, const Technique& t) {
-                   return isVolumes(t) && t.partition != Partition::single && t.partition != Partition::automatic;
-               },
-               "filter volumes with every partition but single and auto",
+    ChoiceRule{Choice::filter, choiceNumber(Filter::volumes), Choice::partition,
+               choiceBits(Partition::single, Partition::automatic), kNeeds,
                "volumes has no maps, so there are no frustums to divide a light among; it needs partition single or "
                "auto, for a point light too"},
+    ChoiceRule{Choice::filter, choiceNumber(Filter::volumes), Choice::fit, choiceBits(Fit::uniform, Fit::automatic),
+               kNeeds, "volumes has no maps, so there is no frustum to shape; it needs fit uniform or auto"},
     ChoiceRule{
-        [](LightType, const Technique& t) { return isVolumes(t) && t.fit != Fit::uniform && t.fit != Fit::automatic; },
-        "filter volumes with every fit but uniform and auto",
-        "volumes has no maps, so there is no frustum to shape; it needs fit uniform or auto"},
-    ChoiceRule{
-        [](LightType, const Technique& t) { return isVolumes(t) && t.motion != Motion::free; },
-        "filter volumes with every motion but free",
+        Choice::filter, choiceNumber(Filter::volumes), Choice::motion, choiceBits(Motion::free), kNeeds,
         "volumes has no maps to hold still or to step with, and counts anew in each frame; it needs motion free"},
-    ChoiceRule{[](LightType, const Technique& t) {
-                   return isVolumes(t) && t.soften != Soften::none && t.soften != Soften::blur;
-               },
-               "filter volumes with soften smoothies and converge",
+    ChoiceRule{Choice::filter, choiceNumber(Filter::volumes), Choice::soften,
+               choiceBits(Soften::smoothies, Soften::converge), kRefuses,
                "volumes has no maps, which smoothies and converge work on; it needs soften none or blur"},
-    ChoiceRule{[](LightType, const Technique& t) { return t.soften == Soften::converge && t.motion != Motion::free; },
-               "soften converge with every motion but free",
+    ChoiceRule{Choice::soften, choiceNumber(Soften::converge), Choice::motion, choiceBits(Motion::free), kNeeds,
                "converge moves its maps in each frame, so nobody can hold them still; it needs motion free"},
 };
 
+std::string_view nameOf(Choice choice)
+{
+    return kChoiceNames[static_cast<std::size_t>(choice)];
+}
+
+bool refusesValue(const ChoiceRule& rule, std::uint32_t value)
+{
+    return value < 32U && ((rule.named >> value & 1U) != 0) != rule.is_needed;
+}
+
 } // namespace
+
+bool ChoiceRule::applies(LightType light, const Technique& technique) const
+{
+    const std::array given{choiceNumber(light),
+                           choiceNumber(technique.partition),
+                           choiceNumber(technique.fit),
+                           choiceNumber(technique.filter),
+                           choiceNumber(technique.soften),
+                           choiceNumber(technique.motion)};
+    return given[choiceNumber(choice)] == value && refusesValue(*this, given[choiceNumber(other)]) &&
+           technique.filter != apart;
+}
+
+bool ChoiceRule::concerns(const ChoiceValue& row) const
+{
+    return row.choice == nameOf(choice) ? row.value == value
+                                        : row.choice == nameOf(other) && refusesValue(*this, row.value);
+}
+
+std::string ChoiceRule::refuses() const
+{
+    std::string text;
+    std::string names;
+    std::string_view last;
+    for (const ChoiceValue& row : choiceValues()) {
+        if (row.choice == nameOf(choice) && row.value == value) {
+            text = std::string(row.choice) + " " + std::string(row.name) + " with ";
+        } else if (row.choice == nameOf(other) && (named >> row.value & 1U) != 0) {
+            names += (names.empty() ? "" : ", ") + std::string(last);
+            last = row.name;
+        }
+    }
+    text += (is_needed ? "every " : "") + std::string(nameOf(other)) + (is_needed ? " but " : " ") + names +
+            (names.empty() ? "" : " and ") + std::string(last);
+    return apart ? text + ", filter " + std::string(gnomon::nameOf(*apart)) + " apart" : text;
+}
 
 std::span<const ChoiceRule> choiceRules()
 {

@@ -3,12 +3,11 @@
 #include "folder.h"
 #include "process.h"
 
-#include "compare_json.h"
-#include "compare_notes.h"
-#include "compare_page.h"
+#include "compare_steps.h"
 #include "compare_text.h"
 #include "image/image_io.h"
 #include "report_html.h"
+#include "report_pages.h"
 #include "sweep.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "light_extent.h"
+#include "shot_parts.h"
 
 #include <gtest/gtest.h>
 

@@ -3,11 +3,9 @@
 #include "folder.h"
 #include "process.h"
 
-#include "doc_pages.h"
 #include "list.h"
-#include "list_details.h"
-#include "list_json.h"
 #include "list_rules.h"
+#include "topics.h"
 
 #include <gnomon/choice_rules.h>
 #include <gtest/gtest.h>
@@ -53,7 +51,7 @@ TEST(List, FitsAFewScreensAndNamesAllChoicesAndRules)
         EXPECT_TRUE(has(ran.out, row.summary)) << row.name;
     }
     for (const ChoiceRule& rule : choiceRules()) { // broken into lines
-        EXPECT_TRUE(has(ran.out, rule.reason.substr(0, 40))) << rule.refuses;
+        EXPECT_TRUE(has(ran.out, rule.reason.substr(0, 40))) << rule.refuses();
     }
     for (const char* name : {"startopia-2006", "spotlit", "completion", "settings"}) {
         EXPECT_TRUE(has(ran.out, name)) << name;
@@ -66,11 +64,11 @@ TEST(List, HasEveryNameOnAtMostAHundredColumns)
     for (const char* name : {"choices", "rules", "settings", "presets", "worlds"}) {
         section += list({name}).out;
     }
-    for (const app::ListedName& name : app::listedNames()) {
-        EXPECT_FALSE(name.summary.empty()) << name.name;
-    }
-    for (const ChoiceValue& row : choiceValues()) {
-        section += app::valueText(row);
+    for (const app::Topic& topic : app::topics()) {
+        EXPECT_FALSE(topic.summary.empty()) << topic.name;
+        if (topic.value != nullptr) {
+            section += list({std::string(topic.name)}).out;
+        }
     }
     // The parts have all that one long list had before.
     for (const app::Setting& setting : app::settingTable()) {
@@ -139,8 +137,8 @@ TEST(List, KnowsWhichRulesAreAValuesOwn)
             named.insert(row.technique);
         }
     }
-    const auto all = std::ranges::count_if(
-        choiceRules(), [&named](const ChoiceRule& rule) { return named.contains(std::string(rule.refuses)); });
+    const auto all = std::ranges::count_if(choiceRules(),
+                                           [&named](const ChoiceRule& rule) { return named.contains(rule.refuses()); });
     EXPECT_EQ(static_cast<std::size_t>(all), choiceRules().size()) << "every rule is some value's";
 }
 
@@ -178,16 +176,13 @@ TEST(List, PagesAreThere)
     const auto isThere = [&root](const std::string& page) {
         return std::filesystem::exists(root / page);
     };
-    for (const ChoiceValue& row : choiceValues()) {
-        EXPECT_TRUE(isThere(app::pageOf(row))) << row.name << " " << app::pageOf(row);
-    }
-    for (const app::Setting& setting : app::settingTable()) {
-        EXPECT_TRUE(isThere(app::pageOf(setting))) << setting.key << " " << app::pageOf(setting);
-    }
-    for (const app::Preset& preset : app::presets()) {
-        EXPECT_TRUE(isThere(app::pageOfPreset(preset.name))) << preset.name;
-        const bool has_one = isThere("docs/techniques/" + std::string(preset.name) + ".md");
-        EXPECT_EQ(has_one, app::pageOfPreset(preset.name).starts_with("docs/techniques")) << preset.name;
+    for (const app::Topic& topic : app::topics()) {
+        const std::string page = app::pageOf(topic);
+        EXPECT_TRUE(isThere(page)) << topic.name << " " << page;
+        if (topic.preset != nullptr) {
+            const bool has_one = isThere("docs/techniques/" + std::string(topic.name) + ".md");
+            EXPECT_EQ(has_one, page.starts_with("docs/techniques")) << topic.name;
+        }
     }
 }
 

@@ -7,8 +7,8 @@
 #include "app/command_line.h"
 #include "app/preset.h"
 #include "app/shot.h"
-#include "bench_page.h"
 #include "image/image_io.h"
+#include "report_pages.h"
 
 #include <gnomon/choice_rules.h>
 #include <gtest/gtest.h>

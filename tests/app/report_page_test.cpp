@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pages of reports are well-formed, carry every string as text, and load nothing from elsewhere. tests/page tests
 // them in a browser.
-#include "bench_page.h"
-#include "compare_page.h"
+#include "report_pages.h"
 
 #include "command_text.h"
-#include "compare_json.h"
+#include "compare_steps.h"
 #include "image/image_io.h"
 #include "report_html.h"
 #include "report_pictures.h"

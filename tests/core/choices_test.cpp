@@ -96,7 +96,7 @@ TEST(Choices, ARuleRefusesWhatItAppliesToAndNothingElse)
 {
     ASSERT_EQ(choiceRules().size(), 19U);
     const ChoiceRule& rule = choiceRules()[2];
-    EXPECT_EQ(rule.refuses, "partition sdsm with every motion but free");
+    EXPECT_EQ(rule.refuses(), "partition sdsm with every motion but free");
     for (const ChoiceValue& partition : choiceValues())
         for (const ChoiceValue& motion : choiceValues()) {
             if (partition.choice != "partition" || motion.choice != "motion" || partition.name == "cube" ||
@@ -112,9 +112,9 @@ TEST(Choices, ARuleRefusesWhatItAppliesToAndNothingElse)
 
 TEST(Choices, APointLightGoesWithWhatGoesAroundAndCubeWithNoSun)
 {
-    EXPECT_EQ(choiceRules()[0].refuses,
+    EXPECT_EQ(choiceRules()[0].refuses(),
               "light point with every partition but cube, paraboloid, multi and auto, filter volumes apart");
-    EXPECT_EQ(choiceRules()[1].refuses, "partition cube with light directional");
+    EXPECT_EQ(choiceRules()[1].refuses(), "partition cube with light directional");
     for (const ChoiceValue& partition : choiceValues()) {
         if (partition.choice != "partition")
             continue;
@@ -158,7 +158,7 @@ TEST(Choices, AParaboloidIsABaselineAndSaysWhatItGoesWith)
 TEST(Choices, WhatConvergesIsNotHeldStill)
 {
     const ChoiceRule& rule = choiceRules().back();
-    EXPECT_EQ(rule.refuses, "soften converge with every motion but free");
+    EXPECT_EQ(rule.refuses(), "soften converge with every motion but free");
     for (const ChoiceValue& motion : choiceValues()) {
         if (motion.choice != "motion")
             continue;

@@ -2,8 +2,8 @@
 // Holds what every pass counts, in `gnomon bench` of the views of views.json, to recorded.json. On the software
 // rasteriser counts are exact and the same on every machine. After a change that is meant to move them:
 // GNOMON_COUNTERS_UPDATE=1 test_counters writes recorded.json anew.
-#include "findings.h"
 #include "recorded.h"
+#include "subcommands.h"
 
 #include "app/command_line.h"
 

@@ -3,7 +3,7 @@
 // minutes to compile, and no preset or path gets that far.
 #include "app/shot.h"
 #include "debug_views.h"
-#include "shot_light.h"
+#include "shot_parts.h"
 
 #include <cstdlib>
 

@@ -2,7 +2,7 @@
 #include "view/panels.h"
 
 #include "app/preset.h"
-#include "shot_camera.h"
+#include "shot_parts.h"
 #include "worlds/worlds.h"
 
 #include <gnomon/choices.h>
@@ -20,11 +20,6 @@ namespace gnomon::app::view {
 namespace {
 
 constexpr std::array<std::string_view, 5> kChoices{"filter", "partition", "fit", "soften", "motion"};
-
-bool isChoice(std::string_view key)
-{
-    return std::find(kChoices.begin(), kChoices.end(), key) != kChoices.end();
-}
 
 /// All settings of a group that have an effect now, but for those that `leaves_out` names.
 template <typename LeavesOut>

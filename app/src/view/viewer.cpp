@@ -3,8 +3,8 @@
 
 #include "app/preset.h"
 #include "command_text.h"
-#include "framing.h"
 #include "result_json.h"
+#include "shot_parts.h"
 
 #include "files/files.h"
 #include "image/image_io.h"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of a comparison's report.
+// The pages of reports, and a bench's tables on a terminal, which are the same.
 #pragma once
 
 #include "result_json.h"
 
+#include <cstdint>
 #include <string>
 
 namespace gnomon::app {
@@ -14,5 +15,10 @@ namespace gnomon::app {
 
 /// The colours of pictures by their meaning: scales from end to end, and classes.
 [[nodiscard]] Json pageLegends();
+
+/// A bench's JSON in tables for a terminal. `map_side`: of its largest map.
+[[nodiscard]] std::string benchText(const Json& result, std::uint32_t map_side);
+/// The page of a bench's JSON, made like comparePage().
+[[nodiscard]] std::string benchPage(const Json& result);
 
 } // namespace gnomon::app
