@@ -13,7 +13,6 @@
 #include <cmath>
 #include <csignal>
 #include <map>
-#include <sstream>
 
 namespace gnomon {
 namespace {
@@ -154,34 +153,6 @@ TEST(Compare, ItsOwnSettingsRepeatIt)
     EXPECT_EQ(b["scene_hash"], a["scene_hash"]);
     EXPECT_EQ(b["settings"], a["settings"]);
     EXPECT_EQ(b["light_source"], a["light_source"]);
-}
-
-TEST(Compare, TableIsBestFirst)
-{
-    const Place place;
-    const test::Ran ran = place.run(compareOf("planes", {"--samples", "16"}));
-    ASSERT_EQ(ran.status, 0) << ran.err;
-    std::istringstream in(ran.out);
-    std::vector<std::string> names;
-    double last = 0.0;
-    bool inside = false;
-    for (std::string line; std::getline(in, line);) {
-        std::istringstream words(line);
-        std::string name;
-        double rmse = -1.0;
-        words >> name;
-        if (inside && words >> rmse) {
-            names.push_back(name);
-            EXPECT_GE(rmse, last) << ran.out;
-            last = rmse;
-        }
-        inside = inside || name == "technique";
-    }
-    EXPECT_EQ(names.size(), 17U) << ran.out; // hard, every kernel, pcss, raymarch, every filterable map and ids
-    EXPECT_EQ(std::count(names.begin(), names.end(), "hard"), 1);
-    EXPECT_TRUE(says(ran.out, "all with map-size=256\n")) << ran.out;
-    EXPECT_TRUE(says(ran.out, "area, 16 rays per pixel")) << ran.out;
-    EXPECT_TRUE(says(ran.out, " counted; left out: ")) << ran.out;
 }
 
 /// A sharp shadow errs less beside sharp truth, a blurred one less beside the truth of a wide sun.

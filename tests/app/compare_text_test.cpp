@@ -23,72 +23,6 @@ bool says(const std::string& text, const std::string& part)
     return text.find(part) != std::string::npos;
 }
 
-TEST(CompareTable, LongNamesStandBelowIt)
-{
-    const std::string longest(app::kTableWidth - 5, 'x');
-    const app::TextTable fits{{"name", "x"}, {{longest, "1.5"}}};
-    EXPECT_EQ(app::fittedTableText(fits), app::tableText(fits));
-    const app::TextTable wide{{"name", "x"}, {{longest + "y", "1.5"}, {"short", "2"}, {longest + "y", "3"}}};
-    EXPECT_EQ(app::fittedTableText(wide),
-              "name    x\n1     1.5\n2       2\n1       3\n\n  1  " + longest + "y\n  2  short\n");
-}
-
-TEST(CompareTable, EveryColumnOfNumbersIsExplained)
-{
-    const app::Json technique{{"technique", "hard"}, {"equal_error", app::Json::object()}};
-    const app::Json sweep{
-        {"key", "fov"}, {"values", {1.0}}, {"truth", {nullptr}}, {"pixels", {nullptr}}, {"results", {technique}}};
-    const app::Json results = app::Json::array({technique});
-    for (const app::Json& result : {app::Json{{"results", results}, {"path", 1}, {"baseline", 1}},
-                                    app::Json{{"results", {}}, {"sweep", sweep}}}) {
-        const app::TextTable table = app::compareTable(result, false);
-        const std::size_t first = result.contains("sweep") ? 2 : 1;
-        ASSERT_EQ(table.meanings.size(), table.columns.size());
-        EXPECT_GE(table.columns.size(), first + 9);
-        for (std::size_t i = 0; i < first; ++i) {
-            EXPECT_TRUE(table.meanings[i].empty());
-        }
-        for (std::size_t i = first; i < table.columns.size(); ++i) {
-            EXPECT_GT(table.meanings[i].size(), 10U) << table.columns[i];
-        }
-    }
-}
-
-TEST(PixelsNote, IsOfNoneAndOfFew)
-{
-    lab::PixelCounts pixels;
-    pixels.counted = 100;
-    pixels.facing_away = 1900;
-    pixels.background = 100000; // which sees no surface
-    EXPECT_EQ(app::pixelsNote(app::pixelsJson(pixels), 1), "");
-    pixels.counted = 99;
-    pixels.facing_away = 1901;
-    EXPECT_TRUE(app::pixelsNote(app::pixelsJson(pixels), 1).starts_with("only 99 of 2000 pixels with a surface count"));
-    pixels.counted = 0;
-    EXPECT_TRUE(
-        app::pixelsNote(app::pixelsJson(pixels), 1).starts_with("no pixel counts, so there are no error numbers"));
-    EXPECT_FALSE(says(app::pixelsNote(app::pixelsJson(pixels), 1), "no ray was traced"));
-    EXPECT_TRUE(app::pixelsNote(app::pixelsJson(pixels), 0).ends_with("; no ray was traced"));
-}
-
-TEST(TruthText, SaysWhatWasTracedAndHowFast)
-{
-    app::TruthFacts truth{.kind = truth::Kind::area, .samples = 64, .rays = 3'000'000, .seconds = 1.5};
-    const auto text = [&] {
-        return app::truthText({{"truth", app::truthJson(truth, 0.01)}});
-    };
-    EXPECT_EQ(text(), "area, 64 rays per pixel, standard error 0.0100; 3000000 rays in 1.50 s, 2 million/s");
-    truth.from_cache = true; // that was another run's time
-    EXPECT_EQ(text(), "area, 64 rays per pixel, standard error 0.0100; 3000000 rays (from the cache)");
-    truth = {.kind = truth::Kind::hard, .rays = 1, .seconds = 0.001};
-    EXPECT_EQ(text(), "hard, one ray per pixel; 1 ray in less than 0.01 s");
-    truth.rays = 0;
-    EXPECT_EQ(text(), "hard, one ray per pixel; no rays");
-    truth.kind = truth::Kind::area;
-    truth.point_like = true;
-    EXPECT_EQ(text(), "hard, one ray per pixel, for the light has no area; no rays");
-}
-
 /// A cache of the test's own.
 struct Place {
     test::Folder folder;
@@ -104,32 +38,6 @@ struct Place {
 
 const std::vector<std::string> kQuick{"--warmup",     "0",    "--repetitions", "1",
                                       "--techniques", "hard", "--map-size",    "64"};
-
-/// All output of a run is in its result.json, and can be made from it again.
-TEST(Compare, TableAndPageAreMadeOfTheJson)
-{
-    const Place place;
-    const std::vector<std::vector<std::string>> runs{
-        {"--samples", "16", "--techniques", "hard,pcf,vsm+cascades", "--repetitions", "1", "--warmup", "0",
-         "--equal-error"},
-        {"--samples", "16", "--techniques", "hard,pcf", "--sweep", "sun-angle=0:8:3"},
-        {"--truth", "hard", "--techniques", "hard,pcf", "--path", "orbit", "--frames", "0-2"}};
-    for (std::vector<std::string> arguments : runs) {
-        arguments.insert(arguments.begin(),
-                         {"compare", "planes", "--size", "64x36", "--map-size", "64", "--light", "sun"});
-        arguments.insert(arguments.end(), {"--report", "out"});
-        const test::Ran ran =
-            test::gnomon(arguments, {.folder = place.folder.path(),
-                                     .environment = {{"XDG_CACHE_HOME", place.cache.path().string()}}});
-        ASSERT_EQ(ran.status, 0) << ran.err;
-        const app::Json result = app::Json::parse(test::slurp(place.folder / "out/result.json"));
-        EXPECT_EQ(app::compareText(result), ran.out);
-        const std::string page = test::slurp(place.folder / "out/index.html");
-        const std::size_t pictures = page.find(app::kPicturesTag);
-        ASSERT_NE(pictures, std::string::npos);
-        EXPECT_EQ(app::comparePage(result, nullptr).substr(0, pictures), page.substr(0, pictures));
-    }
-}
 
 TEST(Compare, SaysWhatWasTracedOfALightWithoutExtent)
 {

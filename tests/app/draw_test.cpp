@@ -119,24 +119,6 @@ TEST(DebugViews, ColourEachCascade)
     }
 }
 
-TEST(DebugViews, DensityGrowsWithTheMap)
-{
-    const test::Folder folder;
-    const auto brightness = [&](const char* size) {
-        const ImageF view =
-            drawn(folder, {"render", "planes", "--camera", "top", "--debug", "density", "--map-size", size});
-        double green = 0.0; // viridis grows greener all along
-        for (std::uint32_t y = 0; y < kHeight; ++y) {
-            for (std::uint32_t x = 0; x < kWidth; ++x) {
-                green += static_cast<double>(view.pixel(x, y)[1]);
-            }
-        }
-        return green;
-    };
-    const double coarse = brightness("64");
-    EXPECT_GT(brightness("512"), 1.5 * coarse);
-}
-
 /// Lines over a grey picture: orange are spheres, blue the largest cells.
 TEST(DebugViews, OctreeHasCellsAndSpheres)
 {

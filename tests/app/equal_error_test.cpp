@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <set>
 
 namespace gnomon {
@@ -106,35 +105,6 @@ TEST(EqualError, FindsAPcfThatErrsNoMore)
         EXPECT_TRUE(equal["reason"].is_null());
         EXPECT_NEAR(one["equal_error_ratio"].get<double>(),
                     equal["frame_ms"]["technique"].get<double>() / equal["frame_ms"]["pcf"].get<double>(), 1e-9);
-    }
-}
-
-/// No smaller map is left untried: the rung before the match errs more, drawn by itself.
-TEST(EqualError, TheNextCheaperPcfErrsMore)
-{
-    const auto result = compared({"--techniques", "hard+map-size=64"});
-    const double rmse = result["results"][0]["error"]["rmse"];
-    const auto& equal = result["results"][0]["equal_error"];
-    app::Settings settings = base();
-    app::applySetting(settings, "size", "48x27"); // as compared() has it
-    const auto ladder = app::pcfLadder(settings, app::kEqualErrorMaxMap);
-    const auto match = std::find_if(ladder.begin(), ladder.end(), [&](const app::PcfSetting& rung) {
-        return app::describeTechnique(rung.settings) == equal["technique"];
-    });
-    ASSERT_NE(match, ladder.end());
-    ASSERT_NE(match, ladder.begin());
-    EXPECT_EQ(equal["tried"], match - ladder.begin() + 1);
-    const std::string before = app::describeTechnique((match - 1)->settings);
-    EXPECT_EQ(equal["cheaper"]["technique"], before);
-    const auto both = compared({"--techniques", before + "," + equal["technique"].get<std::string>()});
-    for (const auto& one : both["results"]) {
-        if (one["technique"] == before) {
-            EXPECT_GT(one["error"]["rmse"].get<double>(), rmse) << equal;
-            EXPECT_EQ(one["error"]["rmse"], equal["cheaper"]["rmse"]);
-        } else {
-            EXPECT_LE(one["error"]["rmse"].get<double>(), rmse) << equal;
-            EXPECT_EQ(one["error"]["rmse"], equal["rmse"]);
-        }
     }
 }
 

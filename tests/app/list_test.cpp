@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
-#include <sstream>
 
 namespace gnomon {
 namespace {
@@ -26,78 +25,9 @@ test::Ran list(const std::vector<std::string>& more)
     return test::gnomon(arguments, {.folder = folder.path()});
 }
 
-bool has(const std::string& text, std::string_view part)
-{
-    return text.find(part) != std::string::npos;
-}
-
 const ChoiceValue& valueOf(std::string_view choice, std::string_view name)
 {
     return *findChoice(choice, name);
-}
-
-TEST(List, FitsAFewScreensAndNamesAllChoicesAndRules)
-{
-    const test::Ran ran = list({});
-    ASSERT_EQ(ran.status, 0) << ran.err;
-    EXPECT_EQ(ran.err, "");
-    std::istringstream in(ran.out);
-    int lines = 0;
-    for (std::string line; std::getline(in, line); ++lines) {
-        EXPECT_LE(line.size(), 100U) << line;
-    }
-    EXPECT_LE(lines, 120);
-    for (const ChoiceValue& row : choiceValues()) {
-        EXPECT_TRUE(has(ran.out, row.summary)) << row.name;
-    }
-    for (const ChoiceRule& rule : choiceRules()) { // broken into lines
-        EXPECT_TRUE(has(ran.out, rule.reason.substr(0, 40))) << rule.refuses();
-    }
-    for (const char* name : {"startopia-2006", "spotlit", "completion", "settings"}) {
-        EXPECT_TRUE(has(ran.out, name)) << name;
-    }
-}
-
-TEST(List, HasEveryNameOnAtMostAHundredColumns)
-{
-    std::string section;
-    for (const char* name : {"choices", "rules", "settings", "presets", "worlds"}) {
-        section += list({name}).out;
-    }
-    for (const app::Topic& topic : app::topics()) {
-        EXPECT_FALSE(topic.summary.empty()) << topic.name;
-        if (topic.value != nullptr) {
-            section += list({std::string(topic.name)}).out;
-        }
-    }
-    // The parts have all that one long list had before.
-    for (const app::Setting& setting : app::settingTable()) {
-        EXPECT_TRUE(has(section, "\n  " + std::string(setting.key) + " ")) << setting.key;
-    }
-    for (const app::Refused& row : app::allRefused()) {
-        EXPECT_TRUE(has(section, row.technique.substr(0, 30))) << row.technique;
-    }
-    std::istringstream in(section);
-    for (std::string line; std::getline(in, line);) {
-        EXPECT_LE(line.size(), 100U) << line;
-    }
-}
-
-TEST(List, OfAValueHasSettingsRulesSourceAndPage)
-{
-    const std::string text = list({"msm"}).out;
-    for (const char* part : {"msm, a value of filter: four moments", "C. Peters, R. Klein, Moment Shadow Mapping, 2015",
-                             "docs/techniques/msm.md", "msm.solver", "bleeding.linstep", "rgba16 unless",
-                             "partition paraboloid with every filter but", "half floats round them"}) {
-        EXPECT_TRUE(has(text, part)) << part;
-    }
-    EXPECT_FALSE(has(text, "lvsm.layers"));
-    EXPECT_FALSE(has(text, "light point with")) << "no rule of msm's";
-    EXPECT_TRUE(has(list({"sdsm"}).out, "it needs motion free") || has(list({"sdsm"}).out, "needs"));
-    const std::string smoothies = list({"smoothies"}).out;
-    EXPECT_TRUE(has(smoothies, "a value of filter") && has(smoothies, "a value of soften"));
-    const std::string blur = list({"blur"}).out;
-    EXPECT_TRUE(has(blur, "a value of soften") && has(blur, "blur, a setting"));
 }
 
 TEST(List, KnowsWhichSettingsAreAValuesOwn)
@@ -140,18 +70,6 @@ TEST(List, KnowsWhichRulesAreAValuesOwn)
     const auto all = std::ranges::count_if(choiceRules(),
                                            [&named](const ChoiceRule& rule) { return named.contains(rule.refuses()); });
     EXPECT_EQ(static_cast<std::size_t>(all), choiceRules().size()) << "every rule is some value's";
-}
-
-TEST(List, OfASettingAPresetAndAWorld)
-{
-    const std::string setting = list({"draw-budget.ms"}).out;
-    for (const char* part :
-         {"write", "range", "ms", "docs/techniques/atlas.md", "render, view, compare, plan, bench"}) {
-        EXPECT_TRUE(has(setting, part)) << part << setting;
-    }
-    EXPECT_TRUE(has(list({"esm-2008"}).out, "\"esm.exponent\": 80"));
-    const std::string world = list({"planes"}).out;
-    EXPECT_TRUE(has(world, "top") && has(world, "sun, spot")) << world;
 }
 
 TEST(List, JsonOfANameIsItsPartOfTheWhole)

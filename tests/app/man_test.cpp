@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <sstream>
 
 namespace gnomon {
 namespace {
@@ -43,20 +42,6 @@ TEST(Man, NamesEverySubcommandAndSetting)
         EXPECT_TRUE(has("\n.B " + (setting.own_option ? "\\-\\-" + key : key + "=")) || setting.key == "out") << key;
     }
     EXPECT_TRUE(has(".B \\-o, \\-\\-out FILE"));
-}
-
-/// No text begins a line with what roff takes for a request.
-TEST(Man, HasNoRequestButItsOwn)
-{
-    std::istringstream in(page());
-    for (std::string line; std::getline(in, line);) {
-        const bool is_request = line.starts_with(".") || line.starts_with("'");
-        const bool is_known = line.starts_with(".\\\"") || line.starts_with(".TH ") || line.starts_with(".SH ") ||
-                              line.starts_with(".SS ") || line.starts_with(".TP") || line.starts_with(".B ") ||
-                              line.starts_with(".PP") || line.starts_with(".I ") || line.starts_with(".RI ");
-        EXPECT_TRUE(!is_request || is_known) << line;
-        EXPECT_FALSE(line.empty());
-    }
 }
 
 TEST(Man, IsReadByGroffWithoutAWarning)

@@ -46,19 +46,6 @@ test::Ran rendered(const test::Folder& folder, std::vector<std::string> more)
     return test::gnomon(arguments, {.folder = folder.path()});
 }
 
-TEST(ManyLights, ThoseInSightAreTaken)
-{
-    const test::Folder folder;
-    test::spill(folder / "row.gltf", rowOfLights(300, 8.0).dump());
-    const test::Ran many = rendered(folder, {"-o", "many.png"});
-    ASSERT_EQ(many.status, 0) << many.err;
-    EXPECT_EQ(many.err.find("left out"), std::string::npos) << many.err;
-    test::spill(folder / "row.gltf", rowOfLights(2, 8.0).dump()); // no other reaches into the picture
-    const test::Ran few = rendered(folder, {"-o", "few.png"});
-    ASSERT_EQ(few.status, 0) << few.err;
-    EXPECT_EQ(readImage(folder / "many.png").values, readImage(folder / "few.png").values);
-}
-
 TEST(ManyLights, TheRestIsCounted)
 {
     const test::Folder folder;
@@ -128,41 +115,6 @@ TEST(OrthographicCamera, PutInHasNothingBehindIt)
     for (int i = 0; i < 8; ++i) {
         EXPECT_GT(glm::dot(glm::dvec3(shot.state.bounds_ws.corner(i)) - shot.eye.position_ws, forward), 0.0);
     }
-}
-
-TEST(OrthographicCamera, AgreesWithTheTruth)
-{
-    const test::Folder folder;
-    const test::Ran ran =
-        test::gnomon({"compare", "canopies", "--light", "sun", "--ortho", "16", "--size", "96x54", "--map-size", "1024",
-                      "--truth", "hard", "--json", "found.json", "--repetitions", "1", "--techniques",
-                      "hard,hard+cascades,hard+sdsm,hard+lispsm,hard+psm,hard+tsm,pcf+auto"},
-                     {.folder = folder.path()});
-    ASSERT_EQ(ran.status, 0) << ran.err;
-    const json found = json::parse(test::slurp(folder / "found.json"));
-    ASSERT_EQ(found["results"].size(), 7U);
-    for (const json& result : found["results"]) {
-        EXPECT_LT(result["error"]["rmse"].get<double>(), 0.09) << result["technique"];
-    }
-}
-
-TEST(OrthographicCamera, FollowsPaths)
-{
-    app::Settings settings = app::defaultSettings();
-    settings.scene = "planes";
-    for (const auto& [key, value] : {std::pair{"ortho", "12"}, {"path", "zoom"}, {"frames", "0-8"}}) {
-        app::applySetting(settings, key, value);
-    }
-    app::Shot shot = app::makeShot(settings);
-    EXPECT_EQ(shot.eye.height_m, 12.0);
-    app::moveShot(shot, settings, 8);
-    EXPECT_LT(shot.eye.height_m, 12.0);
-    app::applySetting(settings, "path", "pan");
-    app::Shot panned = app::makeShot(settings);
-    const glm::dvec3 before = panned.eye.position_ws;
-    app::moveShot(panned, settings, 8);
-    EXPECT_NE(panned.eye.position_ws, before);
-    EXPECT_EQ(panned.eye.height_m, 12.0);
 }
 
 TEST(OrthographicCamera, HasNoFieldOfView)

@@ -65,31 +65,6 @@ TEST(Metrics, OfMasksAreOfLinearVisibility)
     EXPECT_NEAR(numbersOf(folder, "half.png", "dark.png")["error"]["bias"].get<double>(), 0.2, 1e-6);
 }
 
-TEST(Metrics, OfAnImageAgainstItselfAreNoError)
-{
-    const test::Folder folder;
-    Image8 picture(20, 10, 3);
-    for (std::size_t i = 0; i < picture.values.size(); ++i) {
-        picture.values[i] = static_cast<std::uint8_t>(i * 37);
-    }
-    writePng(folder / "a.png", picture);
-    ImageF linear(20, 10, 3);
-    for (std::size_t i = 0; i < linear.values.size(); ++i) {
-        linear.values[i] = static_cast<float>(i % 17) / 8.0F;
-    }
-    writeExr(folder / "a.exr", linear);
-    for (const char* file : {"a.png", "a.exr"}) {
-        const json found = numbersOf(folder, file, file);
-        for (const char* key : {"rmse", "mae", "bias", "p99", "flip"}) {
-            EXPECT_EQ(found["error"][key], 0.0) << file << key;
-        }
-        EXPECT_NEAR(found["error"]["ssim"].get<double>(), 1.0, 1e-9);
-        EXPECT_EQ(found["channels"], 3);
-    }
-    const test::Ran text = test::gnomon({"metrics", "a.png", "a.png"}, {.folder = folder.path()});
-    EXPECT_NE(text.out.find("rmse 0.000000"), std::string::npos) << text.out;
-}
-
 TEST(Metrics, OfColoursAreOfAllChannelsButAlpha)
 {
     const test::Folder folder;

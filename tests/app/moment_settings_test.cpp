@@ -35,38 +35,6 @@ app::Settings technique(const std::string& text)
     return app::parseTechnique(app::defaultSettings(), text);
 }
 
-TEST(MomentSettings, DefaultsAreThoseOfTheLibrary)
-{
-    const MomentOptions made = app::defaultSettings().shadow.moments;
-    const MomentOptions library;
-    EXPECT_EQ(made.metric, library.metric);
-    EXPECT_EQ(made.remap, library.remap);
-    EXPECT_EQ(made.samples, library.samples);
-    EXPECT_EQ(made.blur, library.blur);
-    EXPECT_EQ(made.blur_sigma_texels, library.blur_sigma_texels);
-    EXPECT_EQ(made.blur_radius_texels, library.blur_radius_texels);
-    EXPECT_EQ(made.blur_path, library.blur_path);
-    EXPECT_EQ(made.sampling, library.sampling);
-    EXPECT_EQ(made.anisotropy, library.anisotropy);
-    EXPECT_EQ(made.min_variance, library.min_variance);
-    EXPECT_EQ(made.derivative_variance, library.derivative_variance);
-    EXPECT_EQ(made.bleeding_linstep, library.bleeding_linstep);
-    EXPECT_EQ(made.bleeding_power, library.bleeding_power);
-    EXPECT_EQ(app::defaultSettings().shadow.lighten, ShadowOptions{}.lighten);
-    EXPECT_EQ(made.world_layers, library.world_layers);
-    EXPECT_EQ(made.layer_axis, library.layer_axis);
-    EXPECT_EQ(made.layers, library.layers);
-    EXPECT_EQ(made.placement, library.placement);
-    EXPECT_EQ(made.splits, library.splits);
-    EXPECT_EQ(made.layer_overlap, library.layer_overlap);
-    EXPECT_EQ(made.log_space, library.log_space);
-    EXPECT_EQ(made.esm_exponent, library.esm_exponent);
-    EXPECT_EQ(made.evsm_positive, library.evsm_positive);
-    EXPECT_EQ(made.evsm_negative, library.evsm_negative);
-    EXPECT_EQ(made.solver, library.solver);
-    EXPECT_EQ(made.moment_bias, library.moment_bias);
-}
-
 TEST(MomentSettings, EachReachesTheLibrary)
 {
     const MomentOptions shared =
@@ -166,13 +134,6 @@ TEST(MomentSettings, ResultsComeBackAsPresets)
     }
 }
 
-TEST(MomentSettings, SplitsAreAListInJson)
-{
-    const app::Json json = app::settingsJson(technique("lvsm+lvsm.layers=3+lvsm.splits=0.25/0.5"), app::kPlan);
-    EXPECT_EQ(json["lvsm.splits"], app::Json::array({0.25, 0.5}));
-    EXPECT_EQ(json["lvsm.placement"], "hand");
-}
-
 TEST(MomentSettings, APlacementSaidLaterTakesSplitsBack)
 {
     const test::Folder folder;
@@ -187,21 +148,6 @@ TEST(MomentSettings, APlacementSaidLaterTakesSplitsBack)
     EXPECT_EQ(app::describeTechnique(app::parseTechnique(base, "lvsm+lvsm.splits=0.75")), "lvsm+lvsm.splits=0.75");
     test::spill(folder / "b.json", R"({"filter": "lvsm", "lvsm.placement": "lloyd", "lvsm.splits": [0.25]})");
     EXPECT_THROW((void)settingsOf({"plan", "--preset", (folder / "b.json").string()}), app::UsageError);
-}
-
-TEST(MomentSettings, NumbersCanBeSwept)
-{
-    for (const char* key :
-         {"blur.sigma", "blur.radius", "anisotropy", "min-variance", "bleeding.linstep", "bleeding.power", "lighten",
-          "lvsm.layers", "lvsm.overlap", "esm.exponent", "evsm.positive", "evsm.negative", "msm.bias"}) {
-        const app::Setting* setting = app::findSetting(key);
-        ASSERT_NE(setting, nullptr) << key;
-        const auto sweep =
-            std::string(key) + "=" + std::to_string(setting->min) + ":" + std::to_string(setting->max) + ":2";
-        const bool whole = setting->type == app::SettingType::integer;
-        const std::string text = whole ? std::string(key) + "=2:4:2" : sweep;
-        EXPECT_EQ(settingsOf({"compare", "--techniques", "lvsm", "--sweep", text}).sweep->key, key);
-    }
 }
 
 TEST(MomentSettings, ThePresetIsThePapersSetUp)

@@ -143,19 +143,6 @@ TEST(PathProgram, CompareHasStability)
     }
 }
 
-TEST(PathProgram, MoreTexelsShimmerLess)
-{
-    const Place place;
-    const json result = place.compare({"--camera", "side", "--path", "pan", "--frames", "0-5", "--techniques",
-                                       "hard+free+map-size=64,hard+free+map-size=1024"});
-    ASSERT_EQ(result["results"].size(), 2U); // best first
-    const double fine = result["results"][0]["stability"]["shimmer"];
-    const double coarse = result["results"][1]["stability"]["shimmer"];
-    EXPECT_EQ(result["results"][0]["technique"], "hard+map-size=1024");
-    EXPECT_GT(fine, 0.0);
-    EXPECT_GT(coarse, 1.2 * fine);
-}
-
 TEST(PathProgram, OneFrameHasNoStability)
 {
     const Place place;

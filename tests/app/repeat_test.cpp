@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -43,57 +42,6 @@ std::vector<std::string> compareOf(const std::vector<std::string>& more)
                                        "--repetitions", "1",         "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
-}
-
-/// Technique and error of every result, in order.
-json errorsOf(const json& result)
-{
-    json errors = json::array();
-    for (const json& one : result["results"]) {
-        errors.push_back({one["technique"], one["error"]});
-    }
-    return errors;
-}
-
-TEST(Repeat, EveryWayToChooseTechniques)
-{
-    const Place place;
-    struct Case {
-        const char* name;
-        std::vector<std::string> more;
-        const char* techniques; // as the settings have them
-        std::size_t count;
-        std::vector<const char*> presets = {"settings.json", "result.json"};
-    };
-    const std::vector<Case> cases{
-        {"the default list",
-         {},
-         "hard,pcf+pcf.kernel=2x2,pcf+pcf.kernel=3x3,pcf+pcf.kernel=5x5,pcf+pcf.kernel=7x7,pcf+pcf.kernel=poisson,"
-         "pcf+pcf.kernel=vogel,pcss,raymarch,vsm,lvsm,esm,evsm,msm,id,depth-id,smoothies",
-         17,
-         {"result.json"}}, // many take long, and which file it is has nothing to do with how many
-        {"one by its options",
-         {"--filter", "pcf", "--set", "pcf.kernel=vogel", "--set", "pcf.radius=4"},
-         "pcf+pcf.kernel=vogel",
-         1},
-        {"one without options of its own", {"--filter", "hard", "--bias", "slope=1.5,constant=0.01"}, "hard", 1},
-        {"a list", {"--techniques", "pcf+map-size=64,hard"}, "pcf+map-size=64,hard", 2}};
-    for (const Case& one : cases) {
-        SCOPED_TRACE(one.name);
-        const json first = place.result(compareOf(one.more));
-        ASSERT_EQ(first["results"].size(), one.count);
-        EXPECT_EQ(first["settings"]["techniques"], one.techniques);
-        EXPECT_EQ(first["settings"]["scene"], "planes");
-        EXPECT_EQ(first["settings"]["scene_hash"], first["scene_hash"]);
-        test::spill(place.folder / "settings.json", first["settings"].dump());
-        test::spill(place.folder / "result.json", first.dump());
-        for (const char* preset : one.presets) {
-            const json again = place.result({"compare", "--preset", preset, "--json"}); // the scene is in it
-            EXPECT_EQ(errorsOf(again), errorsOf(first)) << preset;
-            EXPECT_EQ(again["settings"], first["settings"]) << preset;
-            EXPECT_EQ(again["scene"], "planes");
-        }
-    }
 }
 
 TEST(Repeat, OneTechniqueOfManyByItsOwnSettings)

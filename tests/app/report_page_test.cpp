@@ -11,7 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
@@ -257,24 +256,6 @@ TEST(ReportPage, NothingIsFetched)
         EXPECT_EQ(occurrences(page, " href=\"data:,\""), occurrences(page, " href="));
         EXPECT_NE(page.find("Permission is hereby granted, free of charge"), std::string::npos); // of Chart.js
     }
-}
-
-TEST(ReportPage, ColumnsSayWhatTheyMean)
-{
-    const std::string page = textOf(comparePage(makeResult("plain"), nullptr));
-    EXPECT_EQ(occurrences(page, "scope=\"col\">technique</th>"), 1U); // which needs no word
-    EXPECT_EQ(occurrences(page, "scope=\"col\" title=\"memory beyond the frame without shadows\">MiB</th>"), 1U);
-    EXPECT_EQ(occurrences(page, "<dt>MiB</dt><dd>memory beyond the frame without shadows</dd>"), 1U);
-    EXPECT_EQ(occurrences(page, "<dt>technique</dt>"), 0U);
-    EXPECT_LT(page.find(">0.1000</td>"), page.find(">0.2000</td>"));
-}
-
-TEST(ReportPage, IsTheSameEachTime)
-{
-    const std::string page = comparePage(makeResult("plain"), nullptr);
-    EXPECT_TRUE(page.starts_with("<!DOCTYPE html>\n<html lang=\"en\">"));
-    EXPECT_NE(page.find("<meta charset=\"utf-8\">"), std::string::npos);
-    EXPECT_EQ(comparePage(makeResult("plain"), nullptr), page);
 }
 
 /// RFC 4648, section 10.

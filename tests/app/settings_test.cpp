@@ -11,24 +11,12 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
 namespace gnomon {
 namespace {
 
 app::Settings settingsOf(const std::vector<std::string>& arguments)
 {
     return app::parseCommandLine(arguments).settings;
-}
-
-TEST(Settings, KeysAreUnique)
-{
-    std::set<std::string_view> keys;
-    for (const app::Setting& setting : app::settingTable()) {
-        EXPECT_TRUE(keys.insert(setting.key).second) << setting.key;
-        const bool always = setting.option != nullptr ? setting.option->used == nullptr : setting.used == nullptr;
-        EXPECT_EQ(always, setting.used_when.empty()) << setting.key;
-    }
 }
 
 /// Each is a number of cascades; the other says the same or nothing, so that a technique's text makes it again.

@@ -20,19 +20,6 @@ Settings with(std::initializer_list<std::pair<const char*, const char*>> values)
     return settings;
 }
 
-TEST(StepSettings, DefaultsAreThePlannersOwn)
-{
-    const ShadowOptions ours = defaultSettings().shadow;
-    const ShadowOptions usual;
-    EXPECT_EQ(ours.steps.by, usual.steps.by);
-    EXPECT_NEAR(ours.steps.angle_rad, usual.steps.angle_rad, 1e-9);
-    EXPECT_EQ(ours.steps.interval_s, usual.steps.interval_s);
-    EXPECT_EQ(ours.steps.smooth, usual.steps.smooth);
-    EXPECT_EQ(ours.steps.band, usual.steps.band);
-    EXPECT_EQ(ours.keep_still, usual.keep_still);
-    EXPECT_FALSE(resolvedOrThrow(ours).paired_maps());
-}
-
 TEST(StepSettings, BecomeThePlanners)
 {
     const Settings settings = with({{"step.by", "time"},
@@ -49,21 +36,6 @@ TEST(StepSettings, BecomeThePlanners)
     EXPECT_EQ(settings.shadow.keep_still, KeepStill::always);
     EXPECT_EQ(with({{"keep-still", "never"}}).shadow.keep_still, KeepStill::never);
     EXPECT_EQ(with({{"keep-still", "never"}, {"keep-still", "auto"}}).shadow.keep_still, KeepStill::automatic);
-}
-
-TEST(StepSettings, AreWithinThePlannersRanges)
-{
-    for (const char* wrong : {"0", "0.009", "28.1", "nan", "-1"}) {
-        EXPECT_THROW((void)with({{"step.angle", wrong}}), UsageError) << wrong;
-    }
-    for (const char* wrong : {"0", "86401"}) {
-        EXPECT_THROW((void)with({{"step.interval", wrong}}), UsageError) << wrong;
-    }
-    for (const char* wrong : {"0", "1.01"}) {
-        EXPECT_THROW((void)with({{"step.band", wrong}}), UsageError) << wrong;
-    }
-    EXPECT_GE(with({{"step.angle", "0.01"}}).shadow.steps.angle_rad, 0.0001);
-    EXPECT_LE(with({{"step.angle", "28"}}).shadow.steps.angle_rad, 0.5);
 }
 
 /// The options that each motion uses.

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 namespace gnomon {
@@ -107,24 +106,6 @@ TEST(Truth, AnUnusableCacheIsANotice)
     EXPECT_TRUE(says(without.err, "truths are not kept: neither")) << without.err;
 }
 
-TEST(Truth, ASunThreeDegreesWideHasAWiderPenumbra)
-{
-    const test::Folder folder;
-    const test::Folder cache;
-    const auto penumbra = [&](const char* degrees) {
-        auto arguments = maskOf("area", "a.exr");
-        arguments.insert(arguments.end(), {"--sun-angle", degrees});
-        EXPECT_EQ(test::gnomon(arguments, withCache(folder, cache)).status, 0);
-        const ImageF mask = readImage(folder / "a.exr");
-        return std::count_if(mask.values.begin(), mask.values.end(),
-                             [](float value) { return value > 0.0F && value < 1.0F; });
-    };
-    EXPECT_EQ(penumbra("0"), 0);
-    const auto narrow = penumbra("6");
-    EXPECT_GT(narrow, 0);
-    EXPECT_GT(penumbra("30"), 2 * narrow);
-}
-
 TEST(Truth, TakesPointLightsAndSaysThatTheyHaveNoSize)
 {
     const test::Folder folder;
@@ -169,19 +150,6 @@ TEST(Truth, ShadesThePictureWithItsMasks)
     EXPECT_GT(*bright - *dark, 0.3F);
 }
 
-TEST(Truth, WritesFrames)
-{
-    const test::Folder folder;
-    const test::Folder cache;
-    const test::Ran ran = test::gnomon({"render", "rts", "--size", "64x36", "--truth", "area", "--samples", "4",
-                                        "--mask", "--frames", "0-1", "--fps", "1", "-o", "out"},
-                                       withCache(folder, cache));
-    ASSERT_EQ(ran.status, 0) << ran.err;
-    const std::string first = test::slurp(folder / "out/frame_0000.png");
-    EXPECT_FALSE(first.empty());
-    EXPECT_NE(first, test::slurp(folder / "out/frame_0001.png")) << "the units walk";
-}
-
 TEST(Truth, LeavesNothingWhenTheFileCannotBeWritten)
 {
     const test::Folder folder;
@@ -206,16 +174,6 @@ TEST(Truth, OfAStillSceneIsTracedOnceForAllFrames)
     EXPECT_EQ(test::slurp(folder / "out/frame_0000.png"), test::slurp(folder / "out/frame_0002.png"));
 }
 
-/// The one entry of the cache.
-std::filesystem::path entryOf(const test::Folder& cache)
-{
-    std::filesystem::path found;
-    for (const auto& entry : std::filesystem::directory_iterator(cache / "gnomon/truth")) {
-        found = entry.path();
-    }
-    return found;
-}
-
 /// A truth of everything lit, of any size.
 truth::Traced lit(std::uint32_t width, std::uint32_t height)
 {
@@ -230,52 +188,6 @@ truth::Traced lit(std::uint32_t width, std::uint32_t height)
     traced.visibility.standard_error = {width, height, 1};
     traced.visibility.first_blocker_m = {width, height, 1, std::numeric_limits<float>::infinity()};
     return traced;
-}
-
-TEST(Truth, AnEntryOfAnotherSizeIsNotUsed)
-{
-    const test::Folder folder;
-    const test::Folder cache;
-    const test::Ran first = test::gnomon(maskOf("hard", "a.png"), withCache(folder, cache));
-    ASSERT_EQ(first.status, 0) << first.err;
-    const std::string digits = entryOf(cache).stem().string();
-    ASSERT_EQ(digits.size(), 32U);
-    const scene::Hash128 key{std::stoull(digits.substr(0, 16), nullptr, 16),
-                             std::stoull(digits.substr(16), nullptr, 16)};
-    const truth::Cache entries(cache / "gnomon/truth");
-    // The right size shows that what is stored here is what the program finds.
-    for (const auto& [width, height, used] : {std::tuple(96U, 64U, true), std::tuple(48U, 32U, false),
-                                              std::tuple(64U, 96U, false), std::tuple(97U, 64U, false)}) {
-        ASSERT_TRUE(entries.store(key, lit(width, height)));
-        const test::Ran ran = test::gnomon(maskOf("hard", "b.png"), withCache(folder, cache));
-        ASSERT_EQ(ran.status, 0) << ran.err;
-        EXPECT_EQ(ran.err, "");
-        EXPECT_EQ(says(ran.out, "from the cache"), used) << width << " x " << height << ": " << ran.out;
-        EXPECT_EQ(test::slurp(folder / "a.png") != test::slurp(folder / "b.png"), used) << width << " x " << height;
-    }
-    const test::Ran last = test::gnomon(maskOf("hard", "b.png"), withCache(folder, cache));
-    EXPECT_TRUE(says(last.out, "from the cache")) << "a right one has taken its place: " << last.out;
-}
-
-TEST(Truth, ACacheThatTakesNoMoreIsStillRead)
-{
-    const test::Folder folder;
-    const test::Folder cache;
-    const test::Folder other_cache;
-    const auto frames = [&](const char* range, const test::Folder& kept_in) {
-        return test::gnomon({"render", "rts", "--size", "64x36", "--truth", "hard", "--mask", "--frames", range,
-                             "--fps", "1", "-o", "out"},
-                            withCache(folder, kept_in));
-    };
-    ASSERT_EQ(frames("1-1", cache).status, 0);
-    ASSERT_EQ(frames("0-0", other_cache).status, 0);
-    // Where the first frame's entry would go, nothing can.
-    std::filesystem::create_directory(cache / "gnomon/truth" / entryOf(other_cache).filename().string());
-    const test::Ran ran = frames("0-1", cache);
-    EXPECT_EQ(ran.status, 0) << ran.err;
-    EXPECT_EQ(ran.errorLines().size(), 1U) << ran.err;
-    EXPECT_TRUE(says(ran.err, "the truth is not kept: ")) << ran.err;
-    EXPECT_TRUE(says(ran.out, "1 of 2 from the cache")) << ran.out;
 }
 
 TEST(Truth, OfASecondLightIsTheSameFromTheFirstOnesSurfaces)

@@ -3,7 +3,9 @@
 // holds, and nobody waits for longer than is said.
 #include "allocation_count.h"
 #include "avenue.h"
+#include "cascade_turns.h"
 #include "draughtsman.h"
+#include "fit_stage.h"
 #include "plan_judge.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +17,6 @@
 #include <cstdint>
 #include <set>
 #include <string>
-#include <vector>
 
 namespace gnomon {
 namespace {
@@ -114,6 +115,21 @@ void walkRandomly(const Technique& technique, std::uint64_t seeds, WalkOf& walk)
     }
 }
 
+/// What lies nearer or farther along the light than the receivers of before is not covered, whatever it lies under.
+TEST(ViewGround, CoversTheDepthsOfItsReceiversAlone)
+{
+    const test::FitStage made(test::levelGround(0.2));
+    ASSERT_TRUE(made.found);
+    ViewGround ground;
+    ground.note(made.region, made.space);
+    EXPECT_TRUE(ground.covers(made.region, made.view.pad_m));
+    ground.far_m -= 1.0;
+    EXPECT_FALSE(ground.covers(made.region, made.view.pad_m));
+    ground.far_m += 1.0;
+    ground.near_m += 1.0;
+    EXPECT_FALSE(ground.covers(made.region, made.view.pad_m));
+}
+
 TEST(CascadeTurns, ShowAllThatIsSeen)
 {
     for (const Motion motion : {Motion::free, Motion::snap}) {
@@ -176,21 +192,6 @@ TEST(CascadeTurns, KeepToTheBudgetAndToTheLongestWait)
             EXPECT_GE(waited.size(), motion == Motion::snap ? 2U : 3U);
         }
     }
-}
-
-// Nobody is forced to be drawn by what he shows, so the wait alone is what ends it.
-TEST(CascadeTurns, EndAfterTheLongestWait)
-{
-    Street street(1);
-    street.options.longest_wait = 3;
-    street.options.cascades.room = 0.5;
-    Planner planner(street.options);
-    std::uint32_t longest = 0;
-    for (int step = 0; step < 40; ++step) {
-        street.step(step);
-        longest = std::max(longest, longestWait(planner.plan(street.frame)));
-    }
-    EXPECT_EQ(longest, 3U);
 }
 
 // A step that leads out of the room is drawn at once, whatever the bound is.

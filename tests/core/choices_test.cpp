@@ -84,32 +84,6 @@ TEST(Choices, EveryValueGoesWithSomeLightAndTheOthersDefaults)
     }
 }
 
-TEST(Choices, RefusalsAreSentences)
-{
-    EXPECT_EQ(refusal(LightType::point, Technique{.partition = Partition::multi, .motion = Motion::step_jump}),
-              "multi gives each frame the frustums that its picture asks for, and those of two positions of a sun are "
-              "not the same; it needs motion free or snap");
-    EXPECT_FALSE(refusal(LightType::point, Technique{.partition = Partition::multi, .motion = Motion::snap}));
-}
-
-TEST(Choices, ARuleRefusesWhatItAppliesToAndNothingElse)
-{
-    ASSERT_EQ(choiceRules().size(), 19U);
-    const ChoiceRule& rule = choiceRules()[2];
-    EXPECT_EQ(rule.refuses(), "partition sdsm with every motion but free");
-    for (const ChoiceValue& partition : choiceValues())
-        for (const ChoiceValue& motion : choiceValues()) {
-            if (partition.choice != "partition" || motion.choice != "motion" || partition.name == "cube" ||
-                partition.name == "paraboloid" || partition.name == "multi")
-                continue;
-            const Technique technique{.partition = static_cast<Partition>(partition.value),
-                                      .motion = static_cast<Motion>(motion.value)};
-            const bool refused = partition.name == "sdsm" && motion.name != "free";
-            EXPECT_EQ(rule.applies(LightType::spot, technique), refused) << partition.name << motion.name;
-            EXPECT_EQ(refusal(LightType::spot, technique), refused ? std::optional(rule.reason) : std::nullopt);
-        }
-}
-
 TEST(Choices, APointLightGoesWithWhatGoesAroundAndCubeWithNoSun)
 {
     EXPECT_EQ(choiceRules()[0].refuses(),
@@ -153,21 +127,6 @@ TEST(Choices, AParaboloidIsABaselineAndSaysWhatItGoesWith)
               std::string::npos);
     const Technique averages{paraboloid, Fit::uniform, Filter::vsm};
     EXPECT_EQ(refusal(averages), refusal(LightType::point, averages));
-}
-
-TEST(Choices, WhatConvergesIsNotHeldStill)
-{
-    const ChoiceRule& rule = choiceRules().back();
-    EXPECT_EQ(rule.refuses(), "soften converge with every motion but free");
-    for (const ChoiceValue& motion : choiceValues()) {
-        if (motion.choice != "motion")
-            continue;
-        Technique technique{.soften = Soften::converge, .motion = static_cast<Motion>(motion.value)};
-        EXPECT_EQ(refusal(LightType::spot, technique),
-                  motion.name != "free" ? std::optional(rule.reason) : std::nullopt);
-        technique.soften = Soften::none;
-        EXPECT_FALSE(rule.applies(LightType::spot, technique));
-    }
 }
 
 // No light can have it, so the message for a point light does not speak of suns.

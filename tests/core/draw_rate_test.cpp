@@ -122,14 +122,5 @@ TEST(DrawRate, BoundsNothingWhereItIsNotKnownAndStarvesNobody)
     EXPECT_LE(mostDrawn({.draw_budget_ms = 1.0, .longest_wait = 64}, 1e300, longest), std::uint64_t{6 * 64 * 64});
 }
 
-TEST(DrawRate, IsToldInItsRange)
-{
-    EXPECT_TRUE(resolve({.draw_budget_ms = 0.5}));
-    EXPECT_TRUE(resolve({.draw_budget_ms = 10000.0}));
-    EXPECT_FALSE(resolve({.draw_budget_ms = 10001.0}));
-    EXPECT_FALSE(resolve({.draw_budget_ms = -0.5}));
-    EXPECT_FALSE(resolve({.draw_budget_ms = kNaN}));
-}
-
 } // namespace
 } // namespace gnomon

@@ -14,9 +14,6 @@
 namespace gnomon {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 using Change = std::function<void(MomentOptions&)>;
 
 std::string reasonFor(Filter filter, MapFormat format, const Change& change)
@@ -28,19 +25,6 @@ std::string reasonFor(Filter filter, MapFormat format, const Change& change)
 std::string vsmReason(const Change& change)
 {
     return reasonFor(Filter::vsm, MapFormat::rg32f, change);
-}
-
-TEST(MomentOptions, DefaultsAreHadByEveryFilterAndFormat)
-{
-    for (const ChoiceValue& row : choiceValues()) {
-        if (row.choice != "filter" || filterTraits(static_cast<Filter>(row.value)) == nullptr) {
-            continue;
-        }
-        const auto filter = static_cast<Filter>(row.value);
-        for (const MapFormat format : filterTraits(filter)->formats) {
-            EXPECT_EQ(refusal(filter, format, MomentOptions{}), std::nullopt) << row.name << " " << nameOf(format);
-        }
-    }
 }
 
 TEST(MomentOptions, WhatAFilterCannotStoreIsRefusedFirst)
@@ -74,50 +58,6 @@ TEST(MomentOptions, FiltersThatCompareDepthsPassOverThem)
     EXPECT_EQ(reasonFor(Filter::pcf, MapFormat::d32f, [](MomentOptions& o) { o.samples = 3; }), "");
 }
 
-struct Limit {
-    const char* name;
-    void (*set)(MomentOptions&, float);
-    float least;
-    float most;
-    float under; // just outside
-    float over;
-    const char* below;
-    const char* above;
-};
-
-TEST(MomentOptions, LimitsHoldAndWhatIsJustBeyondIsRefused)
-{
-    const std::vector<Limit> limits{
-        {"sigma", [](MomentOptions& o, float v) { o.blur_sigma_texels = v; }, 0.3F, 10.0F, 0.29F, 10.01F,
-         "blur.sigma is 0.29; it can be 0.3 to 10 texels", "blur.sigma is 10.01; it can be 0.3 to 10 texels"},
-        {"variance", [](MomentOptions& o, float v) { o.min_variance = v; }, 0.0F, 1.0F, -0.001F, 1.001F,
-         "min-variance is -0.001; it can be 0 to 1 depth^2", "min-variance is 1.001; it can be 0 to 1 depth^2"},
-        {"linstep", [](MomentOptions& o, float v) { o.bleeding_linstep = v; }, 0.0F, 0.99F, -0.01F, 0.995F,
-         "bleeding.linstep is -0.01; it can be 0 to 0.99 visibility",
-         "bleeding.linstep is 0.995; it can be 0 to 0.99 visibility"},
-        {"power", [](MomentOptions& o, float v) { o.bleeding_power = v; }, 0.1F, 16.0F, 0.09F, 16.5F,
-         "bleeding.power is 0.09; it can be 0.1 to 16", "bleeding.power is 16.5; it can be 0.1 to 16"},
-        {"bias", [](MomentOptions& o, float v) { o.moment_bias = v; }, 0.0F, 0.1F, -1e-6F, 0.101F,
-         "msm.bias is -1e-06; it can be 0 to 0.1", "msm.bias is 0.101; it can be 0 to 0.1"},
-        {"overlap", [](MomentOptions& o, float v) { o.layer_overlap = v; }, 0.0F, 0.5F, -0.01F, 0.501F,
-         "lvsm.overlap is -0.01; it can be 0 to 0.5 of a layer",
-         "lvsm.overlap is 0.501; it can be 0 to 0.5 of a layer"},
-        {"anisotropy", [](MomentOptions& o, float v) { o.anisotropy = static_cast<std::uint32_t>(v); }, 2.0F, 16.0F,
-         1.0F, 17.0F, "anisotropy is 1; it can be 2 to 16 reads", "anisotropy is 17; it can be 2 to 16 reads"},
-        {"layers", [](MomentOptions& o, float v) { o.layers = static_cast<std::uint32_t>(v); }, 2.0F, 8.0F, 1.0F, 9.0F,
-         "lvsm.layers is 1; it can be 2 to 8 layers", "lvsm.layers is 9; it can be 2 to 8 layers"},
-    };
-    for (const Limit& limit : limits) {
-        const auto at = [&](float value) {
-            return vsmReason([&](MomentOptions& o) { limit.set(o, value); });
-        };
-        EXPECT_EQ(at(limit.least), "") << limit.name;
-        EXPECT_EQ(at(limit.most), "") << limit.name;
-        EXPECT_EQ(at(limit.under), limit.below);
-        EXPECT_EQ(at(limit.over), limit.above);
-    }
-}
-
 TEST(MomentOptions, CountsThatHaveNoRange)
 {
     EXPECT_EQ(vsmReason([](MomentOptions& o) { o.blur_radius_texels = 31; }), "");
@@ -130,38 +70,6 @@ TEST(MomentOptions, CountsThatHaveNoRange)
         EXPECT_EQ(vsmReason([&](MomentOptions& o) { o.samples = samples; }),
                   "msaa is " + std::to_string(samples) + "; it can be 1 or 4");
     }
-}
-
-TEST(MomentOptions, WhatIsNoNumberIsRefused)
-{
-    const std::vector<std::function<void(MomentOptions&, float)>> members{
-        [](MomentOptions& o, float v) { o.blur_sigma_texels = v; },
-        [](MomentOptions& o, float v) { o.min_variance = v; },
-        [](MomentOptions& o, float v) { o.bleeding_linstep = v; },
-        [](MomentOptions& o, float v) { o.bleeding_power = v; },
-        [](MomentOptions& o, float v) { o.moment_bias = v; },
-        [](MomentOptions& o, float v) { o.layer_overlap = v; },
-    };
-    for (std::size_t i = 0; i < members.size(); ++i) {
-        for (const float value : {kNan, kInfinity, -kInfinity}) {
-            EXPECT_NE(vsmReason([&](MomentOptions& o) { members[i](o, value); }), "") << i << " " << value;
-        }
-    }
-    for (const float value : {kNan, kInfinity, 0.0F, -1.0F}) {
-        EXPECT_NE(reasonFor(Filter::esm, MapFormat::r32f,
-                            [&](MomentOptions& o) {
-                                o.esm_exponent = value;
-                                o.log_space = true;
-                            }),
-                  "")
-            << value;
-    }
-    EXPECT_NE(reasonFor(Filter::lvsm, MapFormat::rgba16,
-                        [](MomentOptions& o) {
-                            o.placement = LayerPlacement::by_hand;
-                            o.splits[0] = kNan;
-                        }),
-              "");
 }
 
 TEST(MomentOptions, UnormHoldsNoNegativeDepth)
@@ -301,28 +209,6 @@ TEST(MomentOptions, TwoLayersOfDepthShareAnImageLayer)
             EXPECT_EQ(imageLayersPerMap(filter, options), 1U);
         }
     }
-}
-
-template <typename Enum>
-std::vector<std::string_view> namesOf(int count)
-{
-    std::vector<std::string_view> names;
-    for (int i = 0; i < count; ++i) {
-        names.push_back(nameOf(static_cast<Enum>(i)));
-    }
-    return names;
-}
-
-TEST(MomentOptions, Names)
-{
-    using Names = std::vector<std::string_view>;
-    EXPECT_EQ(namesOf<DepthMetricKind>(3), (Names{"linear", "z-over-w", "?"}));
-    EXPECT_EQ(namesOf<BlurKind>(4), (Names{"auto", "none", "gaussian", "box"}));
-    EXPECT_EQ(namesOf<BlurPath>(4), (Names{"auto", "compute", "fragment", "?"}));
-    EXPECT_EQ(namesOf<MapSampling>(5), (Names{"nearest", "bilinear", "trilinear", "anisotropic", "?"}));
-    EXPECT_EQ(namesOf<LayerPlacement>(6), (Names{"uniform", "hand", "lloyd", "gaps", "world", "?"}));
-    EXPECT_EQ(namesOf<LayerAxis>(3), (Names{"height", "light", "?"}));
-    EXPECT_EQ(namesOf<MomentSolver>(3), (Names{"hamburger", "hausdorff", "?"}));
 }
 
 } // namespace

@@ -11,9 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -356,20 +353,6 @@ TEST(MultiReceivers, StayWhereNothingMoves)
             EXPECT_FALSE(view.contents.redraw);
             EXPECT_EQ(view.serves.faded_in, 1.0);
         }
-    }
-}
-
-TEST(MultiReceivers, GoWithSpotsAndSuns)
-{
-    Hall hall = hallOfReceivers();
-    hall.lights = {test::sun({0.3, -1.0, 0.2}), test::spot({0, 8, -10}, {0.1, -1.0, 0.3}, 0.9)};
-    hall.frame.lights = hall.lights;
-    hall.look({1, 1.7, 16}, {0, 1, -14});
-    Planner planner(hall.options);
-    const Plan& plan = planner.plan(hall.frame);
-    for (const LightPlan& light : plan.lights) {
-        EXPECT_EQ(light.outcome.kind, OutcomeKind::ok) << light.outcome.reason;
-        EXPECT_GT(light.view_count, 0U);
     }
 }
 

@@ -387,31 +387,6 @@ TEST(Multi, DrawsOnlyWhatAMoverTouches)
     }
 }
 
-// Sides of maps and shells stay while little changes: each change is a map drawn in other texels.
-TEST(Multi, ChangesLittleWhereLittleMoves)
-{
-    Hall hall;
-    hall.addLamp({0, 3, -8}, 20.0);
-    Planner planner(hall.options);
-    int changes = 0;
-    int views = 0;
-    std::vector<std::pair<double, std::uint32_t>> before;
-    for (int step = 0; step < 100; ++step) {
-        hall.look({1 + 0.01 * step, 1.7, 12 - 0.02 * step}, {0, 1, -14});
-        std::vector<std::pair<double, std::uint32_t>> now;
-        for (const View& view : planner.plan(hall.frame).views) {
-            now.emplace_back(view.serves.sector.w.x + 2.0 * view.serves.sector.w.y + 4.0 * view.serves.slice.begin_m,
-                             view.place.tile.width);
-        }
-        for (const auto& one : now) {
-            changes += step > 0 && std::ranges::find(before, one) == before.end() ? 1 : 0;
-        }
-        views += static_cast<int>(now.size());
-        before = now;
-    }
-    EXPECT_LT(changes, views / 20);
-}
-
 // soften=converge moves its lamp in each frame, and with it the division of directions.
 TEST(Multi, HoldsWhatIsSeenFromEachPointOfALampThatConverges)
 {
@@ -441,21 +416,6 @@ TEST(Multi, HoldsWhatIsSeenFromEachPointOfALampThatConverges)
             EXPECT_LE(std::max(std::abs(clip.x), std::abs(clip.y)), clip.w) << number << ", " << z;
         }
     }
-}
-
-TEST(Multi, GoesWithSpotsAndSuns)
-{
-    Hall hall;
-    hall.lights = {test::sun({0.3, -1.0, 0.2}), test::spot({0, 8, -10}, {0.1, -1.0, 0.3}, 0.9)};
-    hall.frame.lights = hall.lights;
-    hall.look({1, 1.7, 16}, {0, 1, -14});
-    Planner planner(hall.options);
-    const Plan& plan = planner.plan(hall.frame);
-    for (const LightPlan& light : plan.lights) {
-        EXPECT_EQ(light.outcome.kind, OutcomeKind::ok) << light.outcome.reason;
-        EXPECT_GT(light.view_count, 0U);
-    }
-    EXPECT_GT(plan.lights[0].view_count, 1U) << "a floor seen from near by";
 }
 
 } // namespace

@@ -32,22 +32,6 @@ void expectNothing(ObjectSet& set, ObjectId id)
     EXPECT_EQ(set.version(), version);
 }
 
-TEST(ObjectId, OfAnObjectThatIsGoneDoesNothing)
-{
-    ObjectSet set;
-    const ObjectId first = set.add(kUnit);
-    const ObjectId second = set.add(kUnit);
-    EXPECT_TRUE(set.remove(first));
-    expectNothing(set, first);
-    const ObjectId heir = set.add(kUnit); // has the index, not the name
-    EXPECT_EQ(heir.index, first.index);
-    EXPECT_NE(heir, first);
-    expectNothing(set, first);
-    EXPECT_EQ(set.idAt(0), heir);
-    EXPECT_TRUE(set.alive(second));
-    EXPECT_EQ(set.bounds().max, kUnit.max);
-}
-
 TEST(ObjectId, ThatNobodyGaveDoesNothing)
 {
     ObjectSet set;

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <limits>
 
 namespace gnomon {
@@ -127,21 +126,6 @@ TEST(UniformFit, Equation6PutsTheLightBeforeEverythingThatCasts)
                 (depth - view.projection.metric.near_m) /
                     (view.projection.metric.far_m - view.projection.metric.near_m),
                 1e-12);
-}
-
-TEST(UniformFit, FloatingCasterOutsideTheViewCounts)
-{
-    World world;
-    world.lights[0] = test::sun({1, -1, 0});
-    // 45 degrees: at 60 m height a caster 60 m to the left shades the middle.
-    const ObjectId shading = world.set.add({{-61, 60, -1}, {-59, 61, 1}}, {true, false, true});
-    const ObjectId beside = world.set.add({{-61, 60, 30}, {-59, 61, 32}}, {true, false, true});
-    const ObjectId below = world.set.add({{20, -22, -1}, {22, -20, 1}}, {true, false, true});
-    Planner planner(ShadowOptions{.technique = kPlainTechnique});
-    const Plan& plan = world.plan(planner);
-    EXPECT_TRUE(std::binary_search(plan.casters.begin(), plan.casters.end(), shading.index));
-    EXPECT_FALSE(std::binary_search(plan.casters.begin(), plan.casters.end(), beside.index));
-    EXPECT_FALSE(std::binary_search(plan.casters.begin(), plan.casters.end(), below.index));
 }
 
 TEST(UniformFit, CastersThatOnlyAFilterSeesAreDrawnToo)

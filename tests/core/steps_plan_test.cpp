@@ -359,27 +359,5 @@ TEST(KeptLayers, AreNoMoreThanTheAtlasMayHave)
         EXPECT_NE(view.contents.kept_layer, kNoIndex);
 }
 
-/// Two planners with the same frames say the same to the last bit.
-TEST(StepsPlan, AreTheSameEachTime)
-{
-    for (const Motion motion : {Motion::step_jump, Motion::step_band, Motion::step_blend, Motion::step_alternate})
-        for (const StepBy by : {StepBy::angle, StepBy::time}) {
-            Village one;
-            Village two;
-            ShadowOptions options = stepped(motion, 64);
-            options.steps.by = by;
-            Planner first(options);
-            Planner second(options);
-            for (int frame = 0; frame < 60; ++frame) {
-                for (Village* village : {&one, &two}) {
-                    village->shine(0.17 * kStep * frame);
-                    village->move(0.1 * frame, 0.0);
-                    village->frame.time_s = 0.1 * frame;
-                }
-                ASSERT_EQ(toJson(first.plan(one.frame)), toJson(second.plan(two.frame)));
-            }
-        }
-}
-
 } // namespace
 } // namespace gnomon

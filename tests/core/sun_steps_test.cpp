@@ -105,19 +105,6 @@ TEST(SunStepsByAngle, OfASunThatStandsAreOne)
     }
 }
 
-TEST(SunStepsByAngle, OfASunThatStopsStayAsTheyAre)
-{
-    SunCourse course;
-    for (int frame = 0; frame <= 100; ++frame)
-        course.follow(overhead(0.013 * kStep * frame), frame, Stepping::blend, byAngle());
-    const auto before = shown(course);
-    EXPECT_GT(course.steps().share, 0.2);
-    for (int frame = 0; frame < 100; ++frame) {
-        course.follow(overhead(1.3 * kStep), 100 + frame, Stepping::blend, byAngle());
-        EXPECT_LT(change(before, shown(course)), 1e-12);
-    }
-}
-
 TEST(SunStepsByAngle, OfASunThatTurnsBackGoBackWithIt)
 {
     SunCourse course;

@@ -37,18 +37,6 @@ TEST(Turns, AreNobodysWithoutABound)
     }
 }
 
-TEST(Turns, AreTheSameAgain)
-{
-    Avenue avenue(40, Partition::multi);
-    avenue.options.draw_budget_texels = 60000;
-    Planner one(avenue.options);
-    Planner other(avenue.options);
-    for (int step = 0; step < 60; ++step) {
-        avenue.walk(step);
-        ASSERT_EQ(toJson(one.plan(avenue.frame)), toJson(other.plan(avenue.frame))) << step;
-    }
-}
-
 /// An avenue in the middle of a walk on which lights wait.
 struct Waiting {
     Avenue avenue{24};
@@ -250,15 +238,6 @@ TEST(Turns, TakeNothingFromTheHeap)
         EXPECT_EQ(test::heapAllocations(), before) << nameOf(partition);
         EXPECT_GT(waits, 100);
     }
-}
-
-TEST(Turns, AreToldInTheirRange)
-{
-    EXPECT_TRUE(resolve({.draw_budget_texels = 1}));
-    EXPECT_TRUE(resolve({.draw_budget_texels = 1, .longest_wait = 64}));
-    EXPECT_FALSE(resolve({.draw_budget_texels = 1, .longest_wait = 0}));
-    EXPECT_FALSE(resolve({.longest_wait = 65}));
-    EXPECT_FALSE(resolve({.draw_budget_texels = (std::uint64_t{1} << 35U) + 1}));
 }
 
 } // namespace

@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace gnomon {
 namespace {
@@ -109,19 +108,6 @@ TEST(WorldLayers, OfALampAreMetresFromIt)
     const glm::dvec3 p(3.0, 10.0, 1.0);
     const double d = glm::dot(map.lights[0].direction_ws, p - map.lights[0].position_ws);
     EXPECT_NEAR(scaled(view, 0, p), (d - 2.0) / 18.0, 1e-9);
-}
-
-TEST(WorldLayers, PrecisionIsALayersOwn)
-{
-    // A slab of 7 m in a world of 100 m holds three times the steps of one layer over all that this view has (eq. 1 and
-    // what follows).
-    Map map;
-    Planner planner(inWorld({{-1.0, 6.0}, {25.0, 60.0}}));
-    const View view = planner.plan(map.frame).views.at(0);
-    const double height_m = 1.0 / std::abs(view.projection.metric.metric_ws.y);
-    const double step_m = (view.serves.layers[1].far - view.serves.layers[1].near) * height_m / 65535.0;
-    EXPECT_NEAR(step_m, 7.0 / 65535.0, 1e-12);
-    EXPECT_GT(height_m / 7.0, 3.0) << "of the steps that one layer over all of this view would have";
 }
 
 TEST(WorldLayers, ALowSunHasEqualParts)

@@ -63,20 +63,6 @@ TEST(BlendedCaster, MayBeAllThatThereIs)
     EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
 }
 
-TEST(BlendedCaster, TintsTheMaskOfEveryFilterAndPartition)
-{
-    Gpu gpu({.gpu = "software", .validate = true});
-    const scene::Scene scene = panes({Pane{2.0F}});
-    const std::vector<ShadowOptions> all = plainWithAll();
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        for (const Sides& sides : sidesOf(gpu, scene, all[i])) {
-            EXPECT_NEAR(sides.free, 1.0F, kStep) << i;
-            EXPECT_NEAR(sides.under, luminance(through()), kStep) << i;
-        }
-    }
-    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
-}
-
 // Whose maps of tints are drawn by shaders of their own.
 TEST(BlendedCaster, TintsTheMaskOfAParaboloid)
 {
@@ -134,34 +120,6 @@ TEST(BlendedCaster, TakesWhatItCoversUnlessItIsStained)
                 EXPECT_NEAR(sides.under, 1.0F - alpha, kStep);
             }
         }
-    }
-    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
-}
-
-TEST(BlendedCaster, PanesMultiplyColourByColour)
-{
-    Gpu gpu({.gpu = "software", .validate = true});
-    for (const Sides& sides : sidesOf(gpu, panes({Pane{2.0F}, Pane{1.0F}}), plainWith(Filter::pcf))) {
-        EXPECT_NEAR(sides.free, 1.0F, kStep);
-        EXPECT_NEAR(sides.under, luminance(through() * through()), kStep);
-    }
-    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
-}
-
-TEST(BlendedCaster, PaneBehindWhatItsLightReachesTintsNothing)
-{
-    Gpu gpu({.gpu = "software", .validate = true});
-    for (const Sides& sides : sidesOf(gpu, panes({Pane{-1.0F}}), plainWith(Filter::pcf))) {
-        EXPECT_NEAR(sides.under, 1.0F, kStep);
-    }
-    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
-}
-
-TEST(BlendedCaster, TintsFromMapsThatAreKept)
-{
-    Gpu gpu({.gpu = "software", .validate = true});
-    for (const Sides& sides : sidesOf(gpu, panes({Pane{2.0F}}), plainWith(Filter::pcf), 3)) {
-        EXPECT_NEAR(sides.under, luminance(through()), kStep);
     }
     EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
 }

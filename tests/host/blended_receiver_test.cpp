@@ -6,9 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -217,18 +215,6 @@ private:
     std::array<ImageF, 2> lit_;
     ImageF dark_;
 };
-
-TEST_F(BlendedReceiver, IsDarkWhereTheShadowFallsAndLitBesideIt)
-{
-    const Probe probe(gpu_);
-    for (const Filter filter : {Filter::hard, Filter::pcf, Filter::raymarch, Filter::evsm}) {
-        Stage stage(gpu_, {}, plainWith(filter));
-        for (const std::uint32_t light : {kSun, kSpot}) {
-            SCOPED_TRACE(std::string(nameOf(filter)) + " " + std::to_string(light));
-            probe.expectShadow(stage.drawn(light), light);
-        }
-    }
-}
 
 TEST_F(BlendedReceiver, TakesNoShadowFromItselfOrWhereItReceivesNone)
 {

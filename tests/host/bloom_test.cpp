@@ -193,19 +193,6 @@ TEST(Bloom, SpreadsAPixelsLightAndKeepsItsSumAndPlace)
     EXPECT_NEAR(y / sum, 66.5, 0.1);
 }
 
-TEST(Bloom, SpreadsToAllSidesAlike)
-{
-    const Dark one(61, 66, 1, 3.0F, hardBloom(5));
-    const Dark mirrored(kSide - 1 - 61, kSide - 1 - 66, 1, 3.0F, hardBloom(5));
-    for (std::uint32_t v = 0; v < kSide / 2; ++v) {
-        for (std::uint32_t u = 0; u < kSide / 2; ++u) {
-            const float here = *one.picture.glow.pixel(u, v);
-            const float there = *mirrored.picture.glow.pixel(kSide / 2 - 1 - u, kSide / 2 - 1 - v);
-            ASSERT_NEAR(here, there, 2e-3F * here + 1e-6F) << u << ',' << v;
-        }
-    }
-}
-
 TEST(Bloom, CalmsSparklesAndKeepsWideLight)
 {
     const Dark sparkle(61, 66, 1, 100.5F, hardBloom(3));

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -80,50 +79,6 @@ struct Field {
         return options;
     }
 };
-
-class CascadeTurns : public testing::TestWithParam<CascadePass> {};
-
-TEST_P(CascadeTurns, ShowWhatNoBoundShows)
-{
-    Field field;
-    RenderOptions bounded = Field::options();
-    bounded.shadow.draw_budget_texels = 1; // so that a cascade waits for as long as it can
-    bounded.shadow.cascades.room = 0.05;
-    bounded.shadow.cascades.pass = GetParam();
-    {
-        FrameRenderer turns(field.uploaded, bounded);
-        FrameRenderer all(field.uploaded, Field::options());
-        int waits = 0;
-        double off = 0.0; // sum of differences
-        std::size_t pixels = 0;
-        for (int frame = 0; frame < 24; ++frame) {
-            turns.draw(field.state, eyeAt(frame), field.lights);
-            all.draw(field.state, eyeAt(frame), field.lights);
-            waits += static_cast<int>(turns.plan().pages[0].waiting_maps);
-            const ImageF mask = turns.read({.colour = false, .masks = true}).masks[0];
-            const ImageF other = all.read({.colour = false, .masks = true}).masks[0];
-            int leaks = 0;
-            for (std::size_t i = 0; i < mask.values.size(); ++i) {
-                off += std::abs(mask.values[i] - other.values[i]);
-                // Lit where it is dark, and dark around: no edge that larger texels move.
-                const std::size_t row = mask.width;
-                const bool inside = i > row && i + row + 1 < mask.values.size();
-                const bool dark = inside && std::ranges::all_of(std::array{i - row, i - 1, i, i + 1, i + row},
-                                                                [&](std::size_t j) { return other.values[j] < 0.02F; });
-                leaks += dark && mask.values[i] > 0.5F ? 1 : 0;
-            }
-            pixels += mask.values.size();
-            EXPECT_EQ(leaks, 0) << frame;
-        }
-        EXPECT_GT(waits, 20);
-        EXPECT_LT(off / static_cast<double>(pixels), 0.01);
-        EXPECT_GT(off, 0.0) << "else nobody had larger texels";
-    }
-    EXPECT_EQ(field.gpu.messages(), std::vector<std::string>{});
-}
-
-INSTANTIATE_TEST_SUITE_P(Passes, CascadeTurns, testing::Values(CascadePass::each, CascadePass::layered),
-                         [](const auto& pass) { return std::string(nameOf(pass.param)); });
 
 // By the device's own times: the first frames tell what a texel takes, and then less is drawn than is out of date.
 TEST(DrawMilliseconds, BoundWhatIsDrawnOnceTheyAreKnown)

@@ -69,17 +69,6 @@ TEST_F(CompactMaskPictures, AreTheOrdinaryOnesWhereEveryLightHasAChannel)
     EXPECT_LE(worstDifference(draw({8, 32}, 3).colour, each.colour), 1.0) << "every slot has lists";
 }
 
-TEST_F(CompactMaskPictures, AreNearlyThoseWhereLightsShareAChannel)
-{
-    const Picture each = draw({});
-    const Picture four = draw({4, 16});
-    double sum = 0.0;
-    for (std::size_t i = 0; i < each.colour.values.size(); ++i) {
-        sum += std::abs(double(each.colour.values[i]) - double(four.colour.values[i]));
-    }
-    EXPECT_LT(sum / static_cast<double>(each.colour.values.size()), 2.0);
-}
-
 TEST_F(CompactMaskPictures, HaveNoMaskForEachLight)
 {
     RenderOptions options;

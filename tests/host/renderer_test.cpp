@@ -289,16 +289,6 @@ TEST(Renderer, DrawsWithoutLightsAndWithLightsThatHaveNoMap)
     EXPECT_THROW(stage.renderer->draw(stage.state, stage.eye, stage.lights), Error);
 }
 
-TEST(Renderer, ReadsAMapBack)
-{
-    Stage stage(smallScene());
-    stage.drawAndRead();
-    const ImageF map = stage.renderer->readMap(0);
-    EXPECT_EQ(map.width, stage.renderer->plan().pages[0].width);
-    EXPECT_LT(*std::min_element(map.values.begin(), map.values.end()), 1.0F);
-    EXPECT_THROW((void)stage.renderer->readMap(1000), Error);
-}
-
 TEST(Renderer, AccountsForItsMemory)
 {
     Stage stage(smallScene());

@@ -92,6 +92,16 @@ TEST(SeenLight, KnowsRoomsAndBulbs)
     EXPECT_NEAR(given(lamp, room, {0, 1.5, 2.9}, {0, 0.5, 0}), empty, 1e-9);
 }
 
+TEST(SeenLight, EndsAtWhatItMeetsFirst)
+{
+    ObjectSet objects = groundOf(10.0F);
+    std::vector<ShadedLight> lamp{lampAt({0, 4, 0}, 400.0)};
+    lamp[0].caster.range_m = 30.0;
+    const double alone = given(lamp, objects, {0, 4, 12}, {0, 0, 0});
+    objects.add({{-10, -8, -10}, {10, -8, 10}}); // beneath the ground
+    EXPECT_NEAR(given(lamp, objects, {0, 4, 12}, {0, 0, 0}), alone, 1e-9);
+}
+
 TEST(SeenLight, OfNothingIsNothing)
 {
     const std::vector<ShadedLight> lamp{lampAt({0, 4, 0}, 400.0), lampAt({0, 4, 0}, 7.0, LightType::directional)};

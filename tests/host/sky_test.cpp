@@ -16,7 +16,6 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -262,23 +261,6 @@ TEST(Daylight, LeavesLightsOfFilesTheirColour)
     EXPECT_FALSE(lightOf({skyLight(scene::Body::none, -20.0)}).physical) << "from below there shines no sun";
     EXPECT_TRUE(lightOf({skyLight(scene::Body::sun, -20.0)}).physical);
     EXPECT_FALSE(lightOf({}).physical);
-}
-
-TEST(Daylight, IsAFunctionOfItsArguments)
-{
-    const std::vector<ShadedLight> one{skyLight(scene::Body::sun, 12.0)};
-    const std::vector<ShadedLight> other{skyLight(scene::Body::sun, -7.0), skyLight(scene::Body::moon, 20.0)};
-    Daylight kept;
-    const std::vector<double> given(2, 0.0);
-    const std::span<const double> of_one(given.data(), 1);
-    const FrameLight first = kept.at(SkyModel::physical, 0.0, one, of_one, {});
-    const std::uint64_t version = first.bodies[0].version;
-    (void)kept.at(SkyModel::physical, 0.0, other, given, {});
-    const FrameLight& again = kept.at(SkyModel::physical, 0.0, one, of_one, {});
-    EXPECT_EQ(again.colours[0], first.colours[0]);
-    EXPECT_EQ(again.skylight.linear[1], first.skylight.linear[1]);
-    EXPECT_NE(again.bodies[0].version, version) << "its tables have been made anew";
-    EXPECT_EQ(kept.at(SkyModel::physical, 0.0, one, of_one, {}).bodies[0].version, version + 2) << "once";
 }
 
 TEST(Daylight, KeepsThePlainSky)

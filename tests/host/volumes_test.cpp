@@ -314,33 +314,5 @@ TEST(Volumes, AreLightened)
     }
 }
 
-/// Another size, other techniques and back; and a host that draws no volumes.
-TEST(Volumes, SurviveResizingAndOtherTechniques)
-{
-    Gpu gpu({.gpu = "software", .validate = true});
-    const scene::Scene scene = closedScene();
-    const scene::State state = scene::evaluate(scene, 0.0);
-    const SceneOnGpu uploaded(gpu, scene, state);
-    FrameRenderer renderer(uploaded, sized(64, 48));
-    const auto draw = [&] {
-        renderer.draw(state, someEyes()[0], lightsOf(scene, state));
-        return renderer.read({.colour = true, .masks = true});
-    };
-    const Picture first = draw();
-    renderer.resize(80, 64);
-    draw();
-    ShadowOptions pcf;
-    pcf.technique = kPlainTechnique;
-    renderer.setShadows(pcf);
-    draw();
-    renderer.setShadows(byVolumes());
-    renderer.resize(64, 48);
-    const Picture again = draw();
-    for (std::uint32_t light = 0; light < kVolumeLights; ++light) {
-        EXPECT_EQ(first.masks[light].values, again.masks[light].values) << light;
-    }
-    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
-}
-
 } // namespace
 } // namespace gnomon::host::test

@@ -11,9 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -81,86 +79,6 @@ TEST(Bleeding, IsNothingWhereEachCasterHasALayerOfItsOwn)
     std::printf("canopies, bleeding: vsm %.3e, three layers %.3e\n", of_vsm, of_lvsm);
     EXPECT_GT(of_vsm, 1e-4);
     EXPECT_EQ(of_lvsm, 0.0);
-}
-
-struct Rival {
-    const char* name;
-    Filter filter;
-    MapFormat format;
-    std::uint32_t map_size; // of the bytes of vsm's map
-};
-constexpr std::array kRivals{Rival{"evsm, two warps", Filter::evsm, MapFormat::rgba32f, 362},
-                             Rival{"evsm, one warp", Filter::evsm, MapFormat::rg32f, kVsmSide},
-                             Rival{"msm", Filter::msm, MapFormat::rgba16, kVsmSide}};
-
-struct Shares { // of vsm's bleeding, the most that is allowed
-    double lvsm = 0.2;
-    std::array<double, kRivals.size()> rivals{1.0, 1.0, 1.0};
-};
-
-/// At equal bytes, size and blur.
-void expectShares(Stage& stage, const truth::Traced& truth, const std::string& name, float split, const Shares& most,
-                  double least_of_vsm = 1e-5)
-{
-    const double of_vsm = bleedingOf(stage.score(vsm(), truth));
-    const double of_lvsm = bleedingOf(stage.score(lvsm({split}), truth));
-    std::printf("%s, bleeding: vsm %.3e, two layers %.3e (%.0f %%)\n", name.c_str(), of_vsm, of_lvsm,
-                100.0 * of_lvsm / of_vsm);
-    EXPECT_GT(of_vsm, least_of_vsm) << name;
-    EXPECT_LE(of_lvsm, most.lvsm * of_vsm) << name;
-    for (std::size_t i = 0; i < kRivals.size(); ++i) {
-        const Rival& rival = kRivals[i];
-        const double own = bleedingOf(stage.score(filterOptions(rival.filter, rival.format, rival.map_size), truth));
-        std::printf("  %s %.3e (%.0f %%)\n", rival.name, own, 100.0 * own / of_vsm);
-        EXPECT_LE(own, most.rivals[i] * of_vsm) << name << ", " << rival.name;
-    }
-}
-
-TEST(Bleeding, IsLessOnCanopies)
-{
-    Stage stage(worlds::load("canopies", 1), "side", {240, 160});
-    const float split = splitAt(stage.mapView(vsm()), kBelowAwning);
-    const Shares most;
-    expectShares(stage, stage.areaTruth(16), "canopies, area", split, most);
-}
-
-TEST(Bleeding, IsLessOnTheStrategyWorld)
-{
-    Stage stage(worlds::load("rts", 1), "camp", {240, 135});
-    // Measured: 28 %, and 35, 35 and 21 % for the others; a picture this small has few pixels to tell by.
-    const Shares most{.lvsm = 0.6, .rivals = {0.7, 0.7, 0.6}};
-    expectShares(stage, stage.hardTruth(), "rts, camp, hard", 0.6F, most, 2e-6);
-}
-
-/// Two layers found by gaps leave at most this share of vsm's bleeding, and more of them no more than two.
-void expectGapsFound(Stage& stage, const truth::Traced& truth, const std::string& name, double most)
-{
-    const double of_vsm = bleedingOf(stage.score(vsm(), truth));
-    const double of_two = bleedingOf(stage.score(lvsmByGaps(2), truth));
-    std::printf("%s, bleeding: vsm %.3e, two layers by gaps %.3e (%.1f %%)\n", name.c_str(), of_vsm, of_two,
-                100.0 * of_two / of_vsm);
-    EXPECT_LE(of_two, most * of_vsm) << name;
-    for (const std::uint32_t layers : {4U, 8U}) {
-        const double own = bleedingOf(stage.score(lvsmByGaps(layers), truth));
-        std::printf("  %u layers %.3e\n", layers, own);
-        EXPECT_LE(own, of_two) << name << ", " << layers << " layers";
-    }
-}
-
-TEST(Bleeding, IsLessWithLayersByGapsOnCanopies)
-{
-    for (const char* camera : {"side", "top"}) {
-        Stage stage(worlds::load("canopies", 1), camera, {240, 160});
-        // By Lloyd's rule two layers leave 27 to 31 %.
-        expectGapsFound(stage, stage.hardTruth(), std::string("canopies, ") + camera, 0.03);
-    }
-}
-
-TEST(Bleeding, IsLessWithLayersByGapsOnTheStrategyWorld)
-{
-    Stage stage(worlds::load("rts", 1), "camp", {240, 135});
-    // No split of this map saves enough, so two layers are of one width.
-    expectGapsFound(stage, stage.hardTruth(), "rts, camp", 0.6);
 }
 
 host::RenderOptions lvsmUniform(std::uint32_t layers)

@@ -140,21 +140,5 @@ TEST(LeastByPass, OfAFilteredMapIsTheClosedForm)
     }
 }
 
-TEST(LeastByPass, OfAFilteredMapIsThatOfWhatItGoesThrough)
-{
-    constexpr std::uint64_t kTexels = 256 * 256;
-    const Plan plan = planOf(256);
-    TrafficOptions options{.format = MapFormat::rg32f, .filterable = true};
-    EXPECT_EQ(leastByPass(plan, 1, options).filter->bytes, (4 + 8) * kTexels);
-    options.blurred = true;
-    EXPECT_EQ(leastByPass(plan, 1, options).filter->bytes, (4 + 5 * 8) * kTexels);
-    options.image_layers = 2;
-    EXPECT_EQ(leastByPass(plan, 1, options).filter->bytes, (4 + 2 * 5 * 8) * kTexels);
-    options.depth_samples = 4;
-    EXPECT_EQ(leastByPass(plan, 1, options).filter->bytes, (16 + 2 * 5 * 8) * kTexels);
-    EXPECT_EQ(leastByPass(plan, 1, options).maps->bytes, 16 * kTexels);
-    EXPECT_EQ(leastByPass(plan, 1, options).filter->texels, kTexels);
-}
-
 } // namespace
 } // namespace gnomon::lab

@@ -16,7 +16,6 @@
 
 #include <cmath>
 #include <string>
-#include <vector>
 
 namespace gnomon::lab {
 namespace {
@@ -113,54 +112,11 @@ TEST(PlanPicture, TellsCulledCastersFromDrawnOnes)
     EXPECT_LE(shapesIn(svg, "culled"), 21U - view.casters.count);
 }
 
-TEST(PlanPicture, HasAFrameForEachCascade)
-{
-    Row row;
-    row.options.technique.partition = Partition::cascades;
-    for (const std::uint32_t cascades : {1U, 2U, 4U, 6U}) {
-        row.options.cascades.count = cascades;
-        const std::string svg = row.svg();
-        expectSound(svg);
-        EXPECT_EQ(pathsIn(svg, "edge"), 2U * cascades);
-        EXPECT_EQ(shapesIn(svg, "body"), 2U * cascades);
-        EXPECT_EQ(count(svg, "class=\"tile\""), cascades);
-        EXPECT_EQ(count(svg, "<clipPath"), 1U + cascades);
-    }
-}
-
 /// A lamp amid the row, so that the eye sees what lies on several sides of it.
 void lightALamp(Row& row)
 {
     row.light = {.type = LightType::point, .position_ws = {3.0, 2.0, 60.0}, .range_m = 25.0};
     row.options.technique.partition = Partition::multi;
-}
-
-TEST(PlanPicture, ShowsEachMapOfALampAlongItsOwnAxis)
-{
-    Row row;
-    lightALamp(row);
-    row.light.range_m = 15.0; // so that there are no more maps than the picture has room for
-    const std::string svg = row.svg();
-    expectSound(svg);
-    const std::size_t maps = row.planner->plan(row.frame).views.size();
-    ASSERT_GT(maps, 2U);
-    ASSERT_LE(maps, 9U);
-    EXPECT_EQ(pathsIn(svg, "edge"), 2U * maps);
-    EXPECT_EQ(pathsIn(svg, "eighths"), 2U * 7U * maps); // in the maps alone
-    EXPECT_EQ(shapesIn(svg, "body"), 2U * maps);
-    EXPECT_NE(svg.find("From above"), std::string::npos);
-}
-
-TEST(PlanPicture, SaysThatItDrawsNoParaboloid)
-{
-    Row row;
-    lightALamp(row);
-    row.options.technique.partition = Partition::paraboloid;
-    const std::string svg = row.svg();
-    expectSound(svg);
-    ASSERT_FALSE(row.planner->plan(row.frame).views.empty());
-    EXPECT_NE(svg.find("not drawn: a paraboloid shows a half space"), std::string::npos);
-    EXPECT_EQ(pathsIn(svg, "edge"), 0U);
 }
 
 TEST(PlanShapes, WhatIsSeenOfALampIsInItsPyramids)
@@ -185,24 +141,6 @@ TEST(PlanShapes, WhatIsSeenOfALampIsInItsPyramids)
             }
         }
     }
-}
-
-TEST(PlanPicture, SaysWhyThereIsNoMap)
-{
-    Row row;
-    row.light.casts_shadow = false;
-    const std::string svg = row.svg();
-    expectSound(svg);
-    EXPECT_EQ(pathsIn(svg, "edge"), 0U);
-    EXPECT_NE(svg.find("the light casts no shadow"), std::string::npos);
-}
-
-TEST(PlanPicture, SaysWhyAMapIsNotAsAsked)
-{
-    Row row;
-    row.options.technique.fit = Fit::lispsm;
-    row.options.technique.motion = Motion::snap;
-    EXPECT_NE(row.svg().find("fallback: "), std::string::npos);
 }
 
 TEST(PlanPicture, IsWellFormedWhateverTheNames)

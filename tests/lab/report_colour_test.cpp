@@ -117,17 +117,6 @@ TEST(ReportColour, EqualErrorsAreEquallyLight)
     EXPECT_NEAR(last, 32.0, 0.5);
 }
 
-TEST(ReportColour, SmallErrorsAreSeenAndTheirSignToo)
-{
-    for (const Vision& vision : kVisions) {
-        EXPECT_GT(distance(errorColour(1.0 / 255.0), kWhite, vision), 4.0) << vision.name;
-        EXPECT_GT(distance(errorColour(-1.0 / 255.0), kWhite, vision), 4.0) << vision.name;
-        EXPECT_GT(distance(errorColour(0.01), errorColour(-0.01), vision), 12.0) << vision.name;
-        for (int i = 10; i <= 100; ++i)
-            EXPECT_GT(distance(errorColour(i / 100.0), errorColour(-i / 100.0), vision), 40.0) << vision.name << i;
-    }
-}
-
 TEST(ReportColour, LeftOutIsNoErrorAndNoDensity)
 {
     for (const Vision& vision : kVisions) {
@@ -210,30 +199,6 @@ TEST(ReportColour, DensityGrowsLighterOctaveByOctave)
         largest = std::max(largest, step);
     }
     EXPECT_LT(largest, 3.0 * smallest);
-}
-
-TEST(ReportColour, DensityAtItsEnds)
-{
-    EXPECT_EQ(densityColour(1.0 / 16.0), (Colour{0x44, 0x01, 0x54}));
-    EXPECT_EQ(densityColour(1.0), (Colour{0x21, 0x91, 0x8c}));
-    EXPECT_EQ(densityColour(16.0), (Colour{0xfd, 0xe7, 0x25}));
-    EXPECT_EQ(lightCountColour(1), densityColour(1.0 / 16.0));
-    EXPECT_EQ(lightCountColour(32), densityColour(16.0));
-    EXPECT_EQ(lightCountColour(100), lightCountColour(32));
-    EXPECT_EQ(lightCountColour(0), kLeftOut);
-    EXPECT_EQ(densityColour(1e-30), densityColour(1.0 / 16.0));
-    EXPECT_EQ(densityColour(kInfinity), densityColour(16.0));
-    EXPECT_EQ(densityColour(0.0), kLeftOut);
-    EXPECT_EQ(densityColour(-3.0), kLeftOut);
-    EXPECT_EQ(densityColour(kNan), kNotANumber);
-}
-
-TEST(ReportColour, LightIsMixedAsLight)
-{
-    const Colour black{0, 0, 0};
-    EXPECT_EQ(mixLight(black, kWhite, 0.0), black);
-    EXPECT_EQ(mixLight(black, kWhite, 1.0), kWhite);
-    EXPECT_EQ(mixLight(black, kWhite, 0.5), grey(188)); // half the light, in sRGB
 }
 
 } // namespace

@@ -9,15 +9,6 @@
 namespace gnomon::lab {
 namespace {
 
-TEST(WellFormedness, IsNoticedWhenItIsMissing)
-{
-    EXPECT_EQ(whyNotWellFormed("<a b=\"1\"><c/>x &amp; y</a>"), "");
-    for (const char* bad : {"<a>", "</a>", "<a></b>", "<a", "<a>&x;</a>", "<a b=\"&\"/>", "<a b=1/>",
-                            "<a b=\"1\" b=\"2\"/>", "<a b=\"<\"/>", "<a><b></a></b>", "a & b"}) {
-        EXPECT_NE(whyNotWellFormed(bad), "") << bad;
-    }
-}
-
 TEST(SvgText, CutsBetweenCharacters)
 {
     EXPECT_EQ(svgText("abcdef", 6), "abcdef");
@@ -27,15 +18,6 @@ TEST(SvgText, CutsBetweenCharacters)
     EXPECT_EQ(svgText("a<b", 3), "a&lt;b");
     EXPECT_EQ(svgText("\xF0\x9F\x8C\x9E", 9), "\xF0\x9F\x8C\x9E");
     EXPECT_EQ(svgText("\xE5\xBD", 9), "\xEF\xBF\xBD\xEF\xBF\xBD"); // torn
-}
-
-TEST(SvgText, NumbersHaveNoNeedlessDigits)
-{
-    EXPECT_EQ(svgNumber(12.0), "12");
-    EXPECT_EQ(svgNumber(0.1 + 0.2), "0.3");
-    EXPECT_EQ(svgNumber(-0.001), "0");
-    EXPECT_EQ(svgNumber(100.0), "100");
-    EXPECT_EQ(svgNumber(-3.456), "-3.46");
 }
 
 } // namespace

@@ -278,21 +278,6 @@ TEST(FitEfficiency, OfTwoPositionsTakesThoseThatAreRead)
     EXPECT_NEAR(density(), 1.0, 1e-4);
 }
 
-TEST(FitEfficiency, OfAFilterFollowsItsReach)
-{
-    ShadowOptions filter{.technique = kPlainTechnique};
-    filter.technique.filter = Filter::hard;
-    EXPECT_EQ(reachTexels(filter), 0.5F);
-    filter.technique.filter = Filter::pcf;
-    filter.pcf.kernel = PcfKernel::bilinear_2x2;
-    EXPECT_EQ(reachTexels(filter), 1.0F);
-    filter.pcf.kernel = PcfKernel::gaussian_7x7;
-    EXPECT_EQ(reachTexels(filter), 4.0F);
-    filter.pcf.kernel = PcfKernel::vogel;
-    filter.pcf.radius_texels = 3.25F;
-    EXPECT_EQ(reachTexels(filter), 4.25F);
-}
-
 TEST(LeastBytes, AreWhatIsWrittenAndReadOnce)
 {
     const Above above(4.0); // of 4 m a pixel, on texels of 1 m: no texel is read twice by 2 x 2
@@ -364,20 +349,6 @@ TEST(LeastBytes, OfAFilterableMapAreThoseOfItsLayersAndLevels)
     const std::uint64_t with_two = leastBytes(seen, lights, plan, options);
     options.mip_levels = 1;
     EXPECT_EQ(with_two - leastBytes(seen, lights, plan, options), 8 * 2 * (two - 256 * 254));
-}
-
-TEST(LeastBytes, KnowEveryFormat)
-{
-    EXPECT_EQ(texelBytes(MapFormat::d16), 2U);
-    EXPECT_EQ(texelBytes(MapFormat::r16f), 2U);
-    EXPECT_EQ(texelBytes(MapFormat::d32f), 4U);
-    EXPECT_EQ(texelBytes(MapFormat::r32f), 4U);
-    EXPECT_EQ(texelBytes(MapFormat::rg16), 4U);
-    EXPECT_EQ(texelBytes(MapFormat::rg16f), 4U);
-    EXPECT_EQ(texelBytes(MapFormat::rg32f), 8U);
-    EXPECT_EQ(texelBytes(MapFormat::rgba16), 8U);
-    EXPECT_EQ(texelBytes(MapFormat::rgba16f), 8U);
-    EXPECT_EQ(texelBytes(MapFormat::rgba32f), 16U);
 }
 
 TEST(FacingPixels, KnowTheBackgroundOfOrdinaryDepth)

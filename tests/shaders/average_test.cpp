@@ -89,16 +89,6 @@ TEST(Average, ofLogarithmsIsFiniteWhateverTheExponent)
     }
 }
 
-TEST(Average, ofEqualValuesIsThatValue)
-{
-    for (const glm::dvec4 k : {glm::dvec4(80.0), glm::dvec4(-5.0)}) {
-        const glm::dvec4 v(0.1, 0.3, 0.7, 0.99);
-        const glm::dvec4 mean = averageOfFour(v, v, v, v, k, true);
-        EXPECT_EQ(mean, v);
-        EXPECT_EQ(averageOfFour(v, v, v, v, k, false), v);
-    }
-}
-
 TEST(Average, ofFourWeighsAllAlike)
 {
     std::mt19937 rng(4);

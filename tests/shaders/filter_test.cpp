@@ -78,17 +78,6 @@ TEST_F(Filters, mergedGathersAreTheSumOfTheTaps)
     }
 }
 
-TEST_F(Filters, narrowestKernelIsTheBilinearBlendOfFourComparisons)
-{
-    FilterInput input{};
-    input.kernel_width = 1;
-    input.kernel = gaussianWeights(1, 0.0);
-    for (int round = 0; round < 500; ++round) {
-        const MapPoint point = randomPoint();
-        EXPECT_NEAR(filterPcf(point, input), naiveBilinear(point, glm::dvec2(0.0)), 1e-13);
-    }
-}
-
 TEST_F(Filters, ninePointsAreTheMeanOfTheTexelsAround)
 {
     FilterInput input{};

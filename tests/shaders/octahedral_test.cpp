@@ -27,20 +27,6 @@ TEST(Octahedral, roundTripIsExact)
     }
 }
 
-TEST(Octahedral, axesAndDiagonalsSurvive)
-{
-    for (int x = -1; x <= 1; ++x) {
-        for (int y = -1; y <= 1; ++y) {
-            for (int z = -1; z <= 1; ++z) {
-                if (x != 0 || y != 0 || z != 0) {
-                    const glm::dvec3 n = glm::normalize(glm::dvec3(x, y, z));
-                    EXPECT_LT(glm::length(octahedralDecode(octahedralEncode(n)) - n), 1e-14);
-                }
-            }
-        }
-    }
-}
-
 // The automatic bias allows for so much, and no vector needs more.
 TEST(Octahedral, whatStoringTurnsAVectorByIsBounded)
 {

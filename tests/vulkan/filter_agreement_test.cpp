@@ -7,9 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdio>
-
 namespace gnomon::test {
 namespace {
 
@@ -153,85 +150,6 @@ std::vector<Case> staleCases()
 }
 INSTANTIATE_TEST_SUITE_P(Paths, StaleScratch, testing::ValuesIn(staleCases()),
                          [](const auto& test_case) { return test_case.param.name; });
-
-struct PathCase {
-    const char* name;
-    Filter filter;
-    MapFormat format;
-    bool log_space = false;
-};
-std::ostream& operator<<(std::ostream& out, const PathCase& c)
-{
-    return out << c.name;
-}
-
-class BlurPaths : public testing::TestWithParam<PathCase> {};
-
-/// The largest difference in the finest level of a map, in steps of 16 bits.
-double mostStepsApart(const CpuMap& a, const CpuMap& b)
-{
-    double most = 0.0;
-    for (std::size_t i = 0; i < a.levels[0].size(); ++i) {
-        const glm::dvec4 off = glm::abs(glm::dvec4(a.levels[0][i]) - glm::dvec4(b.levels[0][i])) * 65535.0;
-        most = std::max({most, off.x, off.y, off.z, off.w});
-    }
-    return most;
-}
-
-// Merged taps round otherwise than single ones, and the mask by half a step more. GPUs have 8 bits of a sampler's
-// weight or so, which makes another kernel of merged taps: maps of 16 bits may be off by that share of what neighbours
-// are apart, which a mask of moments can show. Then MomentParity holds it to its own map, and here the maps count.
-TEST_P(BlurPaths, giveTheSameMask)
-{
-    const bool is_short = GetParam().format == MapFormat::rg16 || GetParam().format == MapFormat::rgba16;
-    const bool exact = !is_short || readErrorOf(VK_FORMAT_R16G16B16A16_UNORM).absolute == 0.0;
-    const double of_weights = 3.0 + 65535.0 / std::exp2(gpu().limits().subTexelPrecisionBits + 1.0);
-    ShadowOptions filter{.technique = kPlainTechnique};
-    filter.technique.filter = GetParam().filter;
-    filter.format = GetParam().format;
-    filter.moments.log_space = GetParam().log_space;
-    filter.moments.blur_path = BlurPath::compute;
-    const Rendered a = renderParity(filter);
-    filter.moments.blur_path = BlurPath::fragment;
-    const Rendered b = renderParity(filter);
-    filter.moments.blur = BlurKind::none;
-    const Rendered sharp = renderParity(filter);
-    for (std::size_t light = 0; light < a.masks.size(); ++light) {
-        std::size_t different = 0;
-        std::size_t blurred = 0;
-        int worst = 0;
-        for (std::size_t i = 0; i < a.masks[light].size(); ++i) {
-            const auto value = [&](const Rendered& r) {
-                return std::to_integer<int>(r.masks[light][i]);
-            };
-            const int off = std::abs(value(a) - value(b));
-            worst = std::max(worst, off);
-            different += off > 1 ? 1 : 0;
-            blurred += std::abs(value(a) - value(sharp)) > 1 ? 1 : 0;
-        }
-        std::printf("%-22s light %zu: %4zu of %zu pixels differ by more than a step, at most by %d\n", GetParam().name,
-                    light, different, a.masks[light].size(), worst);
-        if (exact) {
-            EXPECT_LE(different, a.masks[light].size() / 1000) << "light " << light << ", at most by " << worst;
-        } else {
-            EXPECT_LE(mostStepsApart(a.maps[light], b.maps[light]), of_weights) << "light " << light;
-        }
-        EXPECT_GT(blurred, a.masks[light].size() / 100) << "the blur must be seen";
-    }
-    expectSilence(gpu());
-}
-
-INSTANTIATE_TEST_SUITE_P(Filters, BlurPaths,
-                         testing::Values(PathCase{"vsm_rg32f", Filter::vsm, MapFormat::rg32f},
-                                         PathCase{"vsm_rg16", Filter::vsm, MapFormat::rg16},
-                                         PathCase{"lvsm_rgba16", Filter::lvsm, MapFormat::rgba16},
-                                         PathCase{"esm_r32f", Filter::esm, MapFormat::r32f},
-                                         PathCase{"esm_r32f_logarithmic", Filter::esm, MapFormat::r32f, true},
-                                         PathCase{"evsm_rgba32f", Filter::evsm, MapFormat::rgba32f},
-                                         PathCase{"evsm_rg32f", Filter::evsm, MapFormat::rg32f},
-                                         PathCase{"msm_rgba32f", Filter::msm, MapFormat::rgba32f},
-                                         PathCase{"msm_rgba16", Filter::msm, MapFormat::rgba16}),
-                         [](const auto& test_case) { return std::string(test_case.param.name); });
 
 } // namespace
 } // namespace gnomon::test

@@ -4,9 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstring>
-
 namespace gnomon::test {
 namespace {
 
@@ -117,53 +114,6 @@ TEST_F(OnGpu, receiversWithIdZeroAreLit)
     EXPECT_GT(relit, 100U);
 }
 
-TEST_F(OnGpu, sevenLightsFillTwoLayers)
-{
-    Bench bench(kScreen, MapFormat::d16);
-    std::vector<Light> lights(7, makeSun({0.8, -0.9, -0.35}));
-    lights[5] = makeSpot({-6.0, 9.0, 5.0}, {0.0, 0.0, 0.0}, 0.6);
-    std::vector<Tile> tiles;
-    for (std::uint32_t i = 0; i < 7; ++i) {
-        tiles.push_back({i, 0, 0, 256, 256});
-    }
-    bench.setLights(lights, tiles, {256, 256, 7});
-    bench.plan.lights[2].outcome = {OutcomeKind::no_shadow_wanted, "it casts none"};
-    bench.prepare();
-    bench.record(1);
-    const auto first = bench.readMask(0);
-    for (const std::uint32_t same : {1U, 3U, 4U, 6U}) {
-        EXPECT_EQ(bench.readMask(same), first) << same;
-    }
-    EXPECT_EQ(bench.readMask(2), std::vector<std::byte>(first.size(), std::byte{255})) << "no map: lit";
-    EXPECT_GT(shareOfDifferent(bench.readMask(5), first, 8), 0.01) << "the spot";
-    EXPECT_EQ(bench.renderer.mask().layers, 2U);
-}
-
-// A plate whose texture is opaque on one half alone throws half a shadow.
-TEST_F(OnGpu, alphaMaskedCastersCastTheirTexture)
-{
-    for (const MapFormat format : {MapFormat::d32f, MapFormat::r32f}) {
-        Bench bench(kScreen, format);
-        bench.scene.boxes = {{{0.0, 5.0, 0.0}, {3.0, 0.001, 3.0}, 0.0}};
-        bench.setLights({makeSun({0.0, -1.0, 0.0}), makeSpot({0.0, 12.0, 0.001}, {0.0, 0.0, 0.0}, 0.6)},
-                        {{0, 0, 0, 128, 128}, {1, 0, 0, 128, 128}}, {128, 128, 2});
-        bench.maskBoxes();
-        bench.prepare();
-        bench.record(1);
-        for (std::uint32_t layer = 0; layer < 2; ++layer) {
-            const auto map = bench.readMap(layer);
-            // Everything of the ground is farther than the plate.
-            const float ground = map[10 * 128 + 64];
-            std::size_t plate = 0;
-            for (const float texel : map) {
-                plate += texel < ground - 0.05F ? 1 : 0;
-            }
-            const double side = layer == 0 ? 6.0 / 24.0 * 128.0 : 6.0 / (2.0 * 7.0 * std::tan(0.6)) * 128.0;
-            EXPECT_NEAR(double(plate), side * side / 2.0, side * 2.0) << "layer " << layer;
-        }
-    }
-}
-
 TEST_F(OnGpu, profilerCountsWhatWasDrawn)
 {
     Bench bench(kScreen, MapFormat::d32f);
@@ -184,25 +134,6 @@ TEST_F(OnGpu, profilerCountsWhatWasDrawn)
     EXPECT_GE(results[0].vertex_invocations, 4 + 8 * bench.scene.boxes.size());
     EXPECT_GE(results[1].fragment_invocations, kScreen.width * kScreen.height);
     EXPECT_EQ(results[1].compute_invocations, 0U);
-}
-
-TEST_F(OnGpu, cullingLeavesOutBackFacesOfOneSidedBatches)
-{
-    // From above, a box shows its top; without its front faces it would show its bottom.
-    for (const bool cull : {false, true}) {
-        for (const bool two_sided : {false, true}) {
-            Bench bench(kScreen, MapFormat::d32f, true, cull);
-            bench.scene.boxes = {{{0.0, 5.0, 0.0}, {3.0, 1.0, 3.0}, 0.0}};
-            bench.setLights({makeSun({0.0, -1.0, 0.0})}, {{0, 0, 0, 128, 128}}, {128, 128, 1});
-            bench.mesh.batches[0].two_sided = two_sided;
-            bench.flipGround(); // it shows the sun its back
-            bench.prepare();
-            bench.record(1);
-            const auto map = bench.readMap(0);
-            EXPECT_NEAR(map[64 * 128 + 64], 9.0 / 45.0, 1e-5) << "the box's top, 6 m up";
-            EXPECT_EQ(map[2 * 128 + 2] == 1.0F, cull && !two_sided) << "the ground";
-        }
-    }
 }
 
 } // namespace

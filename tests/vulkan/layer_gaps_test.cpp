@@ -151,15 +151,5 @@ TEST_F(LayersByGaps, stayWhileTheyDoTheirWorkAndThenFollow)
     }
 }
 
-TEST_F(LayersByGaps, keepTheirPlaceInTheWorldWhenTheLightIsBackedOut)
-{
-    Placed placed(lvsm(LayerPlacement::gaps, 3));
-    const auto before = placed.place(viewOf(kWhole), barsOverASail());
-    const auto after = placed.place(viewOf(kWhole, {0.0, -1.0, 0.0}, 5.0), barsOverASail(0.05F));
-    for (std::size_t i = 1; i < before.size(); ++i) {
-        EXPECT_NEAR(after[i].begins, before[i].begins + 0.05, 1e-3) << i;
-    }
-}
-
 } // namespace
 } // namespace gnomon::test

@@ -6,8 +6,6 @@
 
 #include <gnomon/shared/depth_layers.h>
 
-#include <cmath>
-
 namespace gnomon::test {
 namespace {
 
@@ -140,15 +138,6 @@ TEST_F(LayersOfDepth, followWhatIsStoredUnderASpot)
     }
 }
 
-TEST_F(LayersOfDepth, areUniformOverNothing)
-{
-    Placed placed(lvsm(LayerPlacement::lloyd, 4));
-    const auto layers = placed.place(viewOf(kWhole), std::vector<float>(std::size_t{kSide} * kSide, 1.0F));
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-        EXPECT_NEAR(layers[i].begins, 0.25 * double(i), 1e-6);
-    }
-}
-
 TEST_F(LayersOfDepth, lookAtTheirTileOnly)
 {
     // A view's depths begin at the image's first texel, wherever its tile is. The half of the image that is not the
@@ -182,23 +171,6 @@ TEST_F(LayersOfDepth, stayInAStillScene)
             EXPECT_EQ(next[i].far, first[i].far);
         }
     }
-}
-
-TEST_F(LayersOfDepth, moveNoFasterThanWhatTheyHold)
-{
-    constexpr float kSunk = 0.01F;
-    Placed placed(lvsm(LayerPlacement::lloyd, 4));
-    auto last = placed.place(viewOf(kWhole), depthsOf());
-    double moved = 0.0;
-    for (int frame = 1; frame <= 5; ++frame) {
-        const auto next = placed.place(viewOf(kWhole), depthsOf(kSunk * static_cast<float>(frame)));
-        for (std::size_t i = 1; i < next.size(); ++i) {
-            EXPECT_LE(std::abs(next[i].begins - last[i].begins), 1.5F * kSunk) << "frame " << frame << ", layer " << i;
-            moved += next[i].begins - last[i].begins;
-        }
-        last = next;
-    }
-    EXPECT_GT(moved, 0.05); // and they do follow
 }
 
 // Maps that stand still have layers that do, whatever comes into view, until that gathers elsewhere.
@@ -236,16 +208,6 @@ TEST_F(LayersOfDepth, keepTheirPlaceInTheWorldWhenTheLightIsBackedOut)
     const auto after = placed.place(viewOf(kWhole, {0.0, -1.0, 0.0}, 5.0), depthsOf(0.05F));
     for (std::size_t i = 1; i < before.size(); ++i) {
         EXPECT_NEAR(after[i].begins, before[i].begins + 0.05, 1e-3) << i; // bins are as wide
-    }
-}
-
-TEST_F(LayersOfDepth, moveLittleWithTheSun)
-{
-    Placed placed(lvsm(LayerPlacement::lloyd, 4));
-    const auto before = placed.place(viewOf(kWhole), depthsOf());
-    const auto after = placed.place(viewOf(kWhole, glm::normalize(glm::dvec3(0.01, -1.0, 0.0))), depthsOf());
-    for (std::size_t i = 1; i < before.size(); ++i) {
-        EXPECT_NEAR(after[i].begins, before[i].begins, 1e-3) << i;
     }
 }
 
@@ -291,15 +253,6 @@ TEST_F(LayersOfDepth, areTheirMapsOwnWhoeverElseIsThere)
     EXPECT_NE(placer.slotOf(second, 0), slot_of_b) << "nobody takes the layers of a map that is not in sight";
     EXPECT_FALSE(placer.prepare(third));
     EXPECT_EQ(placer.slotOf(third, 1), slot_of_b);
-}
-
-TEST_F(LayersOfDepth, areNoneForOtherFilters)
-{
-    vulkan::Device device(gpu().view());
-    vulkan::LayerPlacer placer(device, resolvedOrThrow({}), VK_NULL_HANDLE);
-    EXPECT_FALSE(placer.prepare(planOf({viewOf(kWhole)})));
-    EXPECT_NE(placer.buffer(), VK_NULL_HANDLE);
-    EXPECT_TRUE(placer.read(0).empty());
 }
 
 } // namespace

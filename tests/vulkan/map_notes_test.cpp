@@ -50,7 +50,10 @@ TEST(MapNotes, whatHoldsIsLeftAlone)
     EXPECT_TRUE(drawn(contents, planOf({viewOf({1, 0}, kTile, 7, 8)})).draw);
     EXPECT_FALSE(drawn(contents, planOf({viewOf({1, 0}, kTile, 8, 8)})).draw);
     EXPECT_TRUE(drawn(contents, planOf({viewOf({1, 0}, {1, 0, 0, 64, 64}, 8, 8)})).draw) << "it lies elsewhere";
-    EXPECT_TRUE(drawn(contents, planOf({viewOf({1, 0}, kTile, 8, 8)})).draw);
+    View half = viewOf({1, 0}, kTile, 8, 8);
+    EXPECT_TRUE(drawn(contents, planOf({half})).draw);
+    half.place.part = TexelPart::first;
+    EXPECT_TRUE(drawn(contents, planOf({half})).draw) << "it has a part of its texels alone";
 }
 
 TEST(MapNotes, aSkippedFrameIsMadeUpFor)

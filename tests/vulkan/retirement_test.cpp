@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nothing is freed or changed that a frame in flight may use, and in the end all is freed.
 #include "null_driver.h"
+#include "retirement.h"
 #include "scene.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 namespace gnomon::test {
 namespace {
@@ -113,6 +116,21 @@ private:
     std::uint32_t frame_ = 0;
     bool cascades_ = false;
 };
+
+/// A host that records one kind of work alone never records a later one.
+TEST(Retirement, WorkOfTheSameKindIsOfANewFrame)
+{
+    using Work = vulkan::Retirement::Work;
+    vulkan::Retirement retirement;
+    retirement.enter(0, Work::maps);
+    auto resource = std::make_shared<int>(1);
+    const std::weak_ptr<int> used = resource;
+    retirement.keep(std::move(resource));
+    retirement.enter(0, Work::mask);
+    EXPECT_FALSE(used.expired()) << "the same frame";
+    retirement.enter(0, Work::mask);
+    EXPECT_TRUE(used.expired());
+}
 
 class Retired : public testing::TestWithParam<Case> {};
 

@@ -11,7 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -356,17 +355,6 @@ TEST(Ring, TheSeedMovesWalkersAndLeavesTheStation)
         moved = moved || !same;
     }
     EXPECT_TRUE(moved);
-}
-
-TEST(Ring, AdvanceAllocatesNothingOnceWarm)
-{
-    State state = evaluate(ring(), 0.0);
-    advance(ring(), 0.1, state);
-    const std::uint64_t before = test::heapAllocations();
-    for (int i = 0; i < 20; ++i) {
-        advance(ring(), 0.05 * i, state);
-    }
-    EXPECT_EQ(test::heapAllocations(), before);
 }
 
 } // namespace

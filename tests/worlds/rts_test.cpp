@@ -11,9 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 
 namespace gnomon::worlds {
@@ -175,35 +173,6 @@ TEST(Rts, OnlyTerrainTooFlatToShadeAnythingDoesNotCast)
     }
     EXPECT_GT(casting, 40U);
     EXPECT_LT(casting, 256U);
-}
-
-TEST(Rts, AnotherSeedIsAnotherMap)
-{
-    const Scene other = load("rts", 2);
-    EXPECT_FALSE(sameBytes(other.meshes[0].primitives[0].positions, rts().meshes[0].primitives[0].positions));
-    EXPECT_EQ(countNodes(other, "building/"), 60U);
-}
-
-TEST(Rts, AdvanceAllocatesNothingOnceWarm)
-{
-    const Scene& scene = rts();
-    State state = evaluate(scene, 0.0);
-    advance(scene, 0.1, state);
-    const std::uint64_t before = test::heapAllocations();
-    constexpr int kFrames = 200;
-    const auto start = std::chrono::steady_clock::now();
-    for (int i = 0; i < kFrames; ++i) {
-        advance(scene, 0.016 * i, state);
-    }
-    const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-    EXPECT_EQ(test::heapAllocations(), before);
-    std::size_t dynamic = 0;
-    for (const Object& object : state.objects) {
-        dynamic += object.dynamic ? 1 : 0;
-    }
-    std::printf("advance: %.3f ms (%zu objects, %zu of them dynamic)\n", taken.count() / kFrames, state.objects.size(),
-                dynamic);
-    EXPECT_GT(dynamic, 3000U);
 }
 
 } // namespace

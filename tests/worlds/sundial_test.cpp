@@ -280,18 +280,6 @@ TEST(Sundial, OnlyTheWalkerMoves)
     EXPECT_GT(glm::dot(glm::normalize(glm::vec3(way.x, 0, way.z)), facing), 0.9F);
 }
 
-TEST(Sundial, AdvanceAllocatesNothingOnceWarm)
-{
-    const Scene& scene = sundial();
-    State state = evaluate(scene, 0.0);
-    advance(scene, 0.1, state);
-    const std::uint64_t before = test::heapAllocations();
-    for (int i = 0; i < 50; ++i) {
-        advance(scene, 7.5 * i, state);
-    }
-    EXPECT_EQ(test::heapAllocations(), before);
-}
-
 TEST(Sundial, LooksAreNoPartOfAStatesHash)
 {
     State state = evaluate(sundial(), 0.0);

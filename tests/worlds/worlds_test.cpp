@@ -202,27 +202,6 @@ TEST_P(Worlds, ObjectBoundsHoldTheirVertices)
 INSTANTIATE_TEST_SUITE_P(All, Worlds, testing::ValuesIn(all().begin(), all().end()),
                          [](const auto& world) { return std::string(world.param.name); });
 
-TEST(WorldsHash, OfAWorldMadeTwiceIsTheSame)
-{
-    std::set<Hash128> seen;
-    for (const World& world : all()) {
-        const Hash128 hash = sceneHash(world.make(7));
-        EXPECT_EQ(hash, sceneHash(world.make(7))) << world.name;
-        EXPECT_TRUE(seen.insert(hash).second) << world.name;
-    }
-    EXPECT_FALSE(seen.empty());
-}
-
-TEST(WorldsHash, IsTheSameHoweverTheMomentWasReached)
-{
-    const Scene scene = load("rts", 7);
-    const State at_two = evaluate(scene, 2.0);
-    State moved = evaluate(scene, 0.0);
-    EXPECT_NE(stateHash(moved), stateHash(at_two));
-    advance(scene, 2.0, moved);
-    EXPECT_EQ(stateHash(moved), stateHash(at_two));
-}
-
 TEST(Planes, ProjectsAsItsHeaderSays)
 {
     const Scene scene = load("planes", 0);

@@ -40,36 +40,6 @@ void expectEverywhere(const ImageF& map, double expected, double tolerance)
     }
 }
 
-TEST(Flip, IsNothingForEqualPictures)
-{
-    const Pair pair = colouredNoise();
-    for (const float value : flipMap(pair.test, pair.test).values) {
-        ASSERT_EQ(value, 0.0F);
-    }
-}
-
-// Flat pictures have no features and no filter changes them, so the colours' distance alone is left.
-TEST(Flip, IsTheDistanceOfColoursForFlatPictures)
-{
-    const double largest = 41.276098; // HyAB(green, blue)^0.7
-    const double knee = 0.4 * largest;
-    const ImageF black = uniform(24, 20, 0, 0, 0);
-    // Black to white: L* differs by 100, beyond the knee.
-    const double to_white = 0.95 + (std::pow(100.0, 0.7) - knee) / (largest - knee) * 0.05;
-    expectEverywhere(flipMap(uniform(24, 20, 1, 1, 1), black), to_white, 1e-6);
-    // Black to the grey of L* = 50: before the knee.
-    const auto grey = static_cast<float>(std::pow(66.0 / 116.0, 3));
-    expectEverywhere(flipMap(uniform(24, 20, grey, grey, grey), black), 0.95 / knee * std::pow(50.0, 0.7), 1e-6);
-    // Green to blue: the farthest that there is.
-    expectEverywhere(flipMap(uniform(24, 20, 0, 1, 0), uniform(24, 20, 0, 0, 1)), 1.0, 1e-6);
-}
-
-TEST(Flip, IsSymmetric)
-{
-    const Pair pair = colouredTiles();
-    EXPECT_EQ(flipMap(pair.test, pair.reference).values, flipMap(pair.reference, pair.test).values);
-}
-
 TEST(Flip, StaysWithinZeroAndOne)
 {
     for (const Pair& pair : {colouredTiles(), saturatedTiles(), colouredNoise(), linesAndDots(), shadowOfDisc()}) {
@@ -80,61 +50,6 @@ TEST(Flip, StaysWithinZeroAndOne)
         }
         EXPECT_GT(meanOf(map), 0.0);
     }
-}
-
-TEST(Flip, MakesAnEdgeStandOutOfThatWhichTheColoursDiffer)
-{
-    // The same difference of colour at the step, where the reference has no edge, and far from it.
-    ImageF reference = uniform(96, 48, 0.2F, 0.2F, 0.2F);
-    ImageF test = reference;
-    for (std::uint32_t y = 0; y < 48; ++y) {
-        for (std::uint32_t x = 48; x < 96; ++x) {
-            setGrey(test, x, y, 0.4F);
-        }
-    }
-    const ImageF map = flipMap(test, reference);
-    EXPECT_GT(*map.pixel(52, 24), 1.1F * *map.pixel(80, 24));
-    EXPECT_EQ(*map.pixel(10, 24), 0.0F);
-}
-
-/// Mean over the pixels that no filter of up to `margin_px` carries beyond the border from.
-double meanInside(const ImageF& map, std::uint32_t margin_px)
-{
-    double sum = 0.0;
-    for (std::uint32_t y = margin_px; y < map.height - margin_px; ++y) {
-        for (std::uint32_t x = margin_px; x < map.width - margin_px; ++x) {
-            sum += *map.pixel(x, y);
-        }
-    }
-    return sum / ((map.width - 2.0 * margin_px) * (map.height - 2.0 * margin_px));
-}
-
-TEST(Flip, FallsAsPixelsGetTooSmallToSee)
-{
-    constexpr std::uint32_t kSide = 120;
-    constexpr std::uint32_t kMargin = 40; // 3 sqrt(0.04 / (2 pi^2)) x 268 = 36.2
-    Pair noise{uniform(kSide, kSide, 0, 0, 0), uniform(kSide, kSide, 0, 0, 0)};
-    Pair board{uniform(kSide, kSide, 0, 0, 0), uniform(kSide, kSide, 0.5F, 0.5F, 0.5F)};
-    Noise values(11u);
-    for (std::uint32_t y = 0; y < kSide; ++y) {
-        for (std::uint32_t x = 0; x < kSide; ++x) {
-            setGrey(noise.reference, x, y, values.next());
-            setGrey(noise.test, x, y, values.next());
-            setGrey(board.reference, x, y, static_cast<float>((x + y) % 2));
-        }
-    }
-    double last_noise = 1.0;
-    double last_board = 1.0;
-    for (const double pixels_per_degree : {17.0, 67.0, 268.0}) {
-        const double of_noise = meanInside(flipMap(noise.test, noise.reference, pixels_per_degree), kMargin);
-        const double of_board = meanInside(flipMap(board.test, board.reference, pixels_per_degree), kMargin);
-        EXPECT_LT(of_noise, last_noise) << pixels_per_degree;
-        EXPECT_LT(of_board, last_board) << pixels_per_degree;
-        last_noise = of_noise;
-        last_board = of_board;
-    }
-    EXPECT_LT(last_noise, 0.2); // of noise what is slow enough to see stays
-    EXPECT_LT(last_board, 1e-5);
 }
 
 TEST(Flip, ClampsItsPictures)
@@ -184,19 +99,6 @@ TEST(Flip, WorksAtTheLimitsOfDistance)
             ASSERT_LE(value, 1.0F);
         }
     }
-}
-
-TEST(Flip, IsOneWhereAPictureHasPointsOfOnePixelThatFillTheFilter)
-{
-    // From so near a filter is one pixel wide: a point of a checkerboard has all that is positive against all that is
-    // negative, along x and y, which is the largest difference of features, and dE_c^0 = 1.
-    ImageF board = uniform(12, 12, 0, 0, 0);
-    for (std::uint32_t y = 0; y < 12; ++y) {
-        for (std::uint32_t x = 0; x < 12; ++x) {
-            setGrey(board, x, y, static_cast<float>((x + y) % 2));
-        }
-    }
-    EXPECT_NEAR(*flipMap(uniform(12, 12, 0.5F, 0.5F, 0.5F), board, 4.0).pixel(6, 6), 1.0, 1e-6);
 }
 
 ImageF rowsOf(const ImageF& image, std::uint32_t first, std::uint32_t count)
@@ -292,12 +194,6 @@ TEST(Flip, IsNotThereWhereNothingCounts)
     const ImageF mask = noiseMask(8, 8, 3u);
     EXPECT_FALSE(flip(mask, mask, Counted(8, 8, 1, 0)).has_value());
     EXPECT_FALSE(flip(ImageF(0, 0, 1), ImageF(0, 0, 1), Counted(0, 0, 1)).has_value());
-}
-
-TEST(Flip, IsTheSameEachTime)
-{
-    const Pair pair = colouredNoise();
-    EXPECT_EQ(flipMap(pair.test, pair.reference).values, flipMap(pair.test, pair.reference).values);
 }
 
 } // namespace

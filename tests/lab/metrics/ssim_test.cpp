@@ -68,31 +68,6 @@ double directMeanSsim(const ImageF& test, const ImageF& truth, const Counted& co
     return sum / count;
 }
 
-TEST(Ssim, AnImageIsLikeItself)
-{
-    const ImageF noise = noiseMask(40, 30, 1);
-    EXPECT_NEAR(ssim(noise, noise, countAll(40, 30)).value(), 1.0, 1e-12);
-    const ImageF black = constantMask(40, 30, 0.0F);
-    EXPECT_NEAR(ssim(black, black, countAll(40, 30)).value(), 1.0, 1e-12);
-}
-
-TEST(Ssim, ConstantImagesDifferByTheirMeansOnly)
-{
-    struct Pair {
-        float a;
-        float b;
-    };
-    // Smaller than the window too, where it is cut on all sides.
-    for (const std::uint32_t size : {1U, 4U, 11U, 32U}) {
-        for (const Pair& p : {Pair{0.25F, 0.75F}, Pair{0.0F, 1.0F}, Pair{1.0F, 0.0F}, Pair{0.5F, 0.625F}}) {
-            const double a = p.a;
-            const double b = p.b;
-            const auto value = ssim(constantMask(size, size, p.a), constantMask(size, size, p.b), countAll(size, size));
-            EXPECT_NEAR(value.value(), (2.0 * a * b + kC1) / (a * a + b * b + kC1), 1e-12) << size;
-        }
-    }
-}
-
 TEST(Ssim, MeetsTheEquationWrittenOut)
 {
     struct Size {
@@ -113,56 +88,6 @@ TEST(Ssim, MeetsTheEquationWrittenOut)
         EXPECT_LT(value, 0.95);
         const Counted some = countSome(s.width, s.height, 0.4, 6);
         EXPECT_NEAR(ssim(test, truth, some).value(), directMeanSsim(test, truth, some), 1e-12);
-    }
-}
-
-TEST(Ssim, OneMovedEdgeMeetsTheEquationWrittenOut)
-{
-    ImageF truth(48, 24, 1, 1.0F);
-    ImageF test = truth;
-    for (std::uint32_t y = 0; y < 24; ++y) {
-        std::fill_n(truth.pixel(0, y), 20 + y / 3, 0.0F);
-        std::fill_n(test.pixel(0, y), 23, 0.0F);
-    }
-    const Counted all = countAll(48, 24);
-    const double value = ssim(test, truth, all).value();
-    EXPECT_NEAR(value, directMeanSsim(test, truth, all), 1e-12);
-    EXPECT_GT(value, 0.5);
-    EXPECT_LT(value, 0.999);
-}
-
-TEST(Ssim, IsSymmetric)
-{
-    const ImageF a = noiseMask(25, 25, 8);
-    const ImageF b = noiseMask(25, 25, 9);
-    EXPECT_NEAR(ssim(a, b, countAll(25, 25)).value(), ssim(b, a, countAll(25, 25)).value(), 1e-14);
-}
-
-TEST(Ssim, IsNegativeForTheNegative)
-{
-    const ImageF noise = noiseMask(64, 64, 10);
-    ImageF negative = noise;
-    for (float& value : negative.values) {
-        value = 1.0F - value;
-    }
-    const double value = ssim(negative, noise, countAll(64, 64)).value();
-    EXPECT_LT(value, -0.9);
-    EXPECT_GE(value, -1.0);
-}
-
-TEST(Ssim, FallsAsNoiseRises)
-{
-    const ImageF truth = noiseMask(50, 50, 11);
-    const ImageF noise = noiseMask(50, 50, 12);
-    double last = 1.0;
-    for (const float share : {0.1F, 0.3F, 0.5F, 0.8F, 1.0F}) {
-        ImageF test = truth;
-        for (std::size_t i = 0; i < test.values.size(); ++i) {
-            test.values[i] += share * (noise.values[i] - truth.values[i]);
-        }
-        const double value = ssim(test, truth, countAll(50, 50)).value();
-        EXPECT_LT(value, last) << share;
-        last = value;
     }
 }
 

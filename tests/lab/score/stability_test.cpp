@@ -154,19 +154,6 @@ TEST(Stability, AnErrorThatStaysOnTheScreenIs)
     EXPECT_DOUBLE_EQ(meter.stability().value().pop, 1.0);
 }
 
-TEST(Stability, AnEdgeThatJumpsByAPixel)
-{
-    StabilityMeter meter;
-    const Frame still(0.0);
-    const Reprojection onto_before(still.seen(), still.seen());
-    for (std::uint32_t frame = 0; frame < 5; ++frame) {
-        add(meter, litFrom(4 + frame), litFrom(4), frame == 0 ? nullptr : &onto_before);
-    }
-    // One column of twenty changes by 1.
-    EXPECT_DOUBLE_EQ(meter.stability().value().shimmer, std::sqrt(1.0 / kWidth));
-    EXPECT_DOUBLE_EQ(meter.stability().value().pop, 1.0 / kWidth);
-}
-
 TEST(Stability, PopIsTheWorstFrame)
 {
     StabilityMeter meter;
