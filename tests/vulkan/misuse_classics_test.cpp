@@ -43,6 +43,7 @@ TEST(Misuse, OfVolumesWithoutACallbackIsAnError)
 TEST(Misuse, OfClassicTechniquesWithoutTheirLibraryIsAnError)
 {
     Misuser host;
+    host.giveIds();
     vulkan::ShadowRenderer plain(host.driver.view(), {});
     (void)plain.prepare(host.plan, kPicture);
     const auto expectNamed = [&](const ShadowOptions& options, const std::string& name) {
