@@ -153,6 +153,11 @@ class InBuild(Case):
     def test_add_subdirectory(self):
         build = folder("add_subdirectory")
         self.passes(configure(CONSUMER, build, "-DHOW=add_subdirectory", f"-DGNOMON_SOURCE={OPTIONS.source}"))
+        # Whoever does not link classic techniques does not compile them.
+        for target, has in (("all", False), ("classics", True)):
+            inputs = self.passes(run("ninja", "-C", build, "-t", "inputs", target))
+            self.assertEqual(has, "gnomon_classic_spirv" in inputs, target)
+            self.assertEqual(has, "gnomon_vulkan_classics" in inputs, target)
         # All but the library itself, which takes a minute: tools/package_test.sh builds and runs it.
         self.passes(run("cmake", "--build", build, "--target", "consumer_spirv", "CMakeFiles/plan.dir/plan.cpp.o"))
         # Of what is another project's part nothing is installed.
