@@ -16,6 +16,7 @@
 #ifndef GNOMON_RAYMARCH_GLSL
 #define GNOMON_RAYMARCH_GLSL
 #include "cone_texels.glsl"
+#include "edge_line.glsl"
 GN_BEGIN
 
 // Rays of a pixel, by how far they spread. In a narrow penumbra no more than the first few if these agree.
@@ -393,6 +394,9 @@ GN_FN real filterRaymarch(MapPoint point, FilterInput f)
     }
     real spread = real(0.5) * (around.texels.z - around.texels.x + around.texels.w - around.texels.y);
     real widest = spread - kStartsWithin; // width of the light's disc, where it is farthest from the receiver
+    if (widest < real(3.0)) {
+        return edgeVisibility(point, f);
+    }
     real within = widest < kWideTo ? kStartsWithin : real(1.0);
     RayTask task =
         taskInSquare(rayCount(spread), spread >= kWideFrom, f.stood > 0 ? kStartsAtRest : within);
