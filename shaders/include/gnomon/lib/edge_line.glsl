@@ -79,7 +79,7 @@ GN_FN EdgeFound findEdge(MapPoint point, FilterInput f, bool along_x, real centr
     }
     real stored = mapTexel(edgeCell(along_x, col, above < below ? h - real(1.0) : h), f.layer, f.part);
     real gap = max(point.depth - stored, real(0.0)) / max(point.texel_depth, real(1e-12));
-    real width = clamp(real(2.0) * gap * f.spread / length(f.toward), real(0.7), real(3.0));
+    real width = clamp(real(2.0) * gap * f.spread / length(f.toward), real(0.7), real(6.0));
     real d = (pv - e) / sqrt(real(1.0) + slope * slope);
     real share = clamp(real(0.5) + d / width, real(0.0), real(1.0));
     found.run = run;

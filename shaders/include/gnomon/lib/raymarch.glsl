@@ -394,7 +394,7 @@ GN_FN real filterRaymarch(MapPoint point, FilterInput f)
     }
     real spread = real(0.5) * (around.texels.z - around.texels.x + around.texels.w - around.texels.y);
     real widest = spread - kStartsWithin; // width of the light's disc, where it is farthest from the receiver
-    if (widest < real(3.0)) {
+    if (widest < real(6.0)) {
         return edgeVisibility(point, f);
     }
     real within = widest < kWideTo ? kStartsWithin : real(1.0);
