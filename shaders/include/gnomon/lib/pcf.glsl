@@ -6,7 +6,6 @@
 #include "../shared/discs.h"
 #include "../shared/pcf_weights.h"
 #include "filter_types.glsl"
-#include "edge_line.glsl"
 GN_BEGIN
 
 // A separable kernel of width x width bilinear taps (width 1: the plain 2 x 2 blend). Neighbouring taps share texels, so
@@ -73,9 +72,6 @@ GN_FN real pcfPoints(MapPoint point, FilterInput f)
 
 GN_FN real filterPcf(MapPoint point, FilterInput f)
 {
-    if (f.kernel_width == 5) {
-        return edgeVisibility(point, f);
-    }
     if (f.kernel_width < 0) {
         return pcfPoints(point, f);
     }
