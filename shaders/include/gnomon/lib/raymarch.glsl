@@ -312,8 +312,8 @@ GN_FN real filterRaymarch(MapPoint point, FilterInput f)
 {
     RayCone cone = rayCone(point, f);
     Surroundings around = lookAround(point, f, cone, kStartsWithin, kRayEnd);
-    if (around.visibility >= real(0.0)) {
-        return GNOMON_SHOWS_RAYS ? kShowsDecided : around.visibility;
+    if (around.visibility >= real(0.0) || GNOMON_SETTLES) {
+        return GNOMON_SHOWS_RAYS && around.visibility >= real(0.0) ? kShowsDecided : around.visibility;
     }
     real spread = real(0.5) * (around.texels.z - around.texels.x + around.texels.w - around.texels.y);
     real widest = spread - kStartsWithin; // width of the light's disc, where it is farthest from the receiver
