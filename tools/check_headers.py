@@ -24,7 +24,7 @@ from pathlib import Path
 from sources import project_files, project_root
 
 # Folder -> include folders. A public header gets those that its users have; only private ones see src/.
-PUBLIC = ["core/include", "pack/include", "shaders/include", "vulkan/include", "."]
+PUBLIC = ["core/include", "pack/include", "shaders/include", "vulkan/include", "vulkan/classics/include", "."]
 FOLDERS = [
     ("shaders/include/gnomon/shared/", ["shaders/include"]),
     ("core/include/", ["core/include", "shaders/include"]),
@@ -33,6 +33,9 @@ FOLDERS = [
     ("pack/src/", ["pack/include", "core/include", "shaders/include", "pack/src"]),
     ("vulkan/include/", ["vulkan/include", "pack/include", "core/include", "shaders/include"]),
     ("vulkan/src/", ["vulkan/include", "pack/include", "core/include", "shaders/include", "vulkan/src"]),
+    ("vulkan/classics/include/", ["vulkan/classics/include", "vulkan/include", "pack/include", "core/include", "shaders/include"]),
+    ("vulkan/classics/src/", ["vulkan/classics/include", "vulkan/include", "pack/include", "core/include", "shaders/include",
+                              "vulkan/classics/src", "vulkan/src"]),
     ("files/", [".", "core/include", "files/src"]),
     ("image/", [".", "core/include", "image/src"]),
     ("scene/src/", [".", "core/include", "scene/src"]),

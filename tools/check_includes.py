@@ -22,6 +22,8 @@ PROJECT_KINDS = [
     (r"^core/include/", "core-public"),
     (r"^pack/include/", "pack-public"),
     (r"^vulkan/include/", "vulkan-public"),
+    (r"^vulkan/classics/include/", "classics"),
+    (r"^vulkan/src/", "backend"),
     (r"^(core|pack|vulkan)/", "private"),
     (r"^(files|scene|worlds|image|host|truth|lab)/src/", "private"),
     (r"^lab/metrics", "metrics"),
@@ -58,7 +60,7 @@ FOREIGN_KINDS = [
 
 STD = {"std", "std-file", "system"}
 PUBLIC = {"core-geometry", "core-public", "pack-public", "vulkan-public"}
-ABOVE = STD | PUBLIC | {"glm", "vulkan-api", "files", "scene", "image", "host", "truth", "lab", "metrics", "score", "json", "fmt"}
+ABOVE = STD | PUBLIC | {"classics", "glm", "vulkan-api", "files", "scene", "image", "host", "truth", "lab", "metrics", "score", "json", "fmt"}
 
 # (folder, what it may include besides its own files, why). The longest folder that a file's path starts with rules.
 # Tests may include everything, private headers too.
@@ -70,6 +72,10 @@ RULES = [
     ("pack/", {"std", "glm", "core-geometry", "core-public", "shared"}, "pack knows no graphics, window or file"),
     ("vulkan/include/", {"std", "glm", "core-geometry", "core-public", "pack-public", "vulkan-api"}, "a public header shows nothing private"),
     ("vulkan/", STD | PUBLIC | {"glm", "vulkan-api", "shared", "shader-lib", "spirv"}, "the backend knows core and shaders"),
+    ("vulkan/classics/include/", {"std", "glm", "core-geometry", "core-public", "pack-public", "vulkan-public", "vulkan-api"},
+     "a public header shows nothing private"),
+    ("vulkan/classics/", STD | PUBLIC | {"classics", "backend", "glm", "vulkan-api", "shared", "shader-lib", "spirv"},
+     "classic techniques are made of the backend, which does not know them"),
     ("files/", STD | {"core-geometry"}, "files know errors, nothing else"),
     ("image/", STD | {"core-geometry", "files", "png", "exr"}, "images know files and errors, nothing else"),
     ("scene/", STD | {"glm", "core-geometry", "files", "png", "jpeg", "webp", "draco", "meshopt", "json", "xxhash"},
@@ -77,7 +83,7 @@ RULES = [
     ("worlds/", STD | {"glm", "core-geometry", "scene"}, "worlds are made of a scene's parts"),
     ("truth/", STD | {"glm", "core-geometry", "files", "scene", "image", "embree"}, "the judge shares no shadow code with the judged"),
     ("host/shaders/", {"shared", "shader-lib"}, "the host's shaders include the library's, as an engine would"),
-    ("host/", STD | PUBLIC | {"glm", "vulkan-api", "files", "scene", "image", "shared", "host-shared", "spirv"},
+    ("host/", STD | PUBLIC | {"classics", "glm", "vulkan-api", "files", "scene", "image", "shared", "host-shared", "spirv"},
      "the host knows the library by its public headers, and no window"),
     ("host/window/", STD | PUBLIC | {"glm", "vulkan-api", "files", "image", "host", "private", "window", "imgui"},
      "windows are the host's, and show images"),
@@ -93,7 +99,7 @@ RULES = [
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
 SUFFIXES = {".cpp", ".h", ".glsl", ".vert", ".frag", ".comp", ".geom"}
-PUBLIC_FOLDERS = ("core/include", "pack/include", "vulkan/include", "shaders/include", "")
+PUBLIC_FOLDERS = ("core/include", "pack/include", "vulkan/include", "vulkan/classics/include", "shaders/include", "")
 
 
 def rule_for(path: str):

@@ -49,7 +49,7 @@ ITEMS = {
     "browser": Item(BUILT + "browser", paths=("app/pages/", "site/", "tests/page/", "tests/site/", "tools/make_site.py",
                                               "tools/site_pages.py", "tools/doxygen_filter.py", "lab/src/report"), built=True),
     "package": Item(BUILT + "package", paths=("cmake/", "CMakeLists.txt", "packaging/", "tests/package/", "examples/",
-                                              "core/include/", "pack/include/", "vulkan/include/"), built=True),
+                                              "core/include/", "pack/include/", "vulkan/include/", "vulkan/classics/"), built=True),
     "fuzz": Item("make -s fuzz JOBS=$JOBS FUZZ_SECONDS=60", parts=("scene/", "image/", "truth/"),
                  paths=("tests/fuzz/", "tools/fuzz.sh", "app/src/preset", "app/src/setting", "app/src/bench_figures")),
     "roots": Item("make -s package-test JOBS=$JOBS", needs="debootstrap", takes_turns=False),

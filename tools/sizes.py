@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""How large the house is: lines by room, words of documents, and with a build the library's shader modules.
+"""How large the house is: lines by room, words of documents, and with a build the library's shader modules and those of
+its classic techniques.
 
 usage: sizes.py [BUILD]
 """
@@ -32,8 +33,9 @@ def main() -> int:
     print(f"tools     {lines['tools']:7} lines")
     print(f"docs      {words:7} words")
     if len(sys.argv) > 1:
-        modules = [*(Path(sys.argv[1]) / "shaders/gnomon_spirv").glob("*.spv")]
-        print(f"modules   {len(modules):7}, {sum(file.stat().st_size for file in modules)} bytes")
+        for name, folder in (("modules", "gnomon_spirv"), ("classics", "gnomon_classic_spirv")):
+            modules = [*(Path(sys.argv[1]) / "shaders" / folder).glob("*.spv")]
+            print(f"{name:9} {len(modules):7}, {sum(file.stat().st_size for file in modules)} bytes")
     return 0
 
 

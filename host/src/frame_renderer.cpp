@@ -31,9 +31,9 @@ std::uint32_t slotsOf(const RenderOptions& options)
     return options.frames_in_flight;
 }
 
-std::shared_ptr<Shadows> makeShadows(SceneData& scene, const RenderOptions& options)
+std::shared_ptr<Shadows> makeShadows(SceneData& scene, const RenderOptions& options, vulkan::Profiler& profiler)
 {
-    return options.shadows ? std::make_shared<Shadows>(scene, options) : nullptr;
+    return options.shadows ? std::make_shared<Shadows>(scene, options, profiler) : nullptr;
 }
 
 } // namespace
@@ -61,7 +61,7 @@ FrameRenderer::Impl::Impl(SceneData& the_scene, const RenderOptions& the_options
         throw Error("shading forward", "the device has too few samplers for maps beside textures", "shade deferred");
     }
     screen = makeScreen(options);
-    shadows = makeShadows(scene, options);
+    shadows = makeShadows(scene, options, profiler);
 }
 
 std::shared_ptr<Screen> FrameRenderer::Impl::makeScreen(const RenderOptions& wish) const
@@ -110,7 +110,7 @@ void FrameRenderer::setShadows(const std::optional<ShadowOptions>& wanted)
     next.shadows = wanted.has_value();
     next.shadow = wanted.value_or(next.shadow);
     (void)checkedShading(next);
-    impl_->shadows = makeShadows(impl_->scene, next);
+    impl_->shadows = makeShadows(impl_->scene, next, impl_->profiler);
     impl_->options = next;
 }
 

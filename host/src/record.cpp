@@ -113,9 +113,6 @@ void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
     if (shadows->volumes) {
         shadows->volumes->beginFrame(slot, shadows->volume_meshes->geometry(scene.geometry.positions),
                                      draws.transforms());
-        inputs.volumes = [this](const vulkan::VolumePass& pass) {
-            profiler.addDraws(shadows->volumes->draw(pass));
-        };
     }
     if (!frame_lights.empty()) {
         renderer.recordMask(cmd, slot, *plan, inputs, &profiler);
@@ -146,8 +143,7 @@ void FrameRenderer::Impl::recordMaps(VkCommandBuffer cmd, const vulkan::MaskInpu
     }
     // It holds one pointer, for which nothing is allocated.
     const vulkan::DrawCasters draw = [this](const vulkan::MapPass& pass) {
-        std::optional<vulkan::FinDrawer>& fins = shadows->fins;
-        profiler.addDraws(fins && pass.classic.formats.fins ? fins->draw(pass) : shadows->casters.draw(pass));
+        profiler.addDraws(shadows->casters.draw(pass));
     };
     renderer.recordMaps(cmd, slot, *plan, draw, &profiler);
     if (const ForwardShadows* const lookup = forwardShadows()) {

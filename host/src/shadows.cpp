@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace gnomon::host {
 namespace {
@@ -14,7 +15,7 @@ GBufferShape readBy(const DrawTable& table, const ResolvedOptions& options)
 }
 
 vulkan::ShadowRendererOptions rendererOptions(const SceneData& scene, const RenderOptions& options,
-                                              const GBufferShape& reads)
+                                              const GBufferShape& reads, vulkan::ClassicCallbacks callbacks)
 {
     vulkan::ShadowRendererOptions wish;
     if (std::ranges::find(scene.table.blended, 1) != scene.table.blended.end()) {
@@ -27,7 +28,7 @@ vulkan::ShadowRendererOptions rendererOptions(const SceneData& scene, const Rend
     wish.pipeline_cache = scene.gpu.pipelineCache();
     wish.compact = options.compact_mask;
     wish.shows_rays = options.shows_rays;
-    wish.draws_fins = true;
+    wish.classics = vulkan::makeClassics(std::move(callbacks));
     return wish;
 }
 
@@ -42,6 +43,18 @@ vulkan::CasterDrawerOptions casterOptions(const Gpu& gpu, const RenderOptions& o
     return wish;
 }
 
+vulkan::ClassicCallbacks classicCallbacks(Shadows& shadows, vulkan::Profiler& profiler)
+{
+    vulkan::ClassicCallbacks callbacks;
+    callbacks.fins = [&](const vulkan::FinPass& pass) {
+        profiler.addDraws(shadows.fins->draw(pass));
+    };
+    callbacks.volumes = [&](const vulkan::VolumePass& pass) {
+        profiler.addDraws(shadows.volumes->draw(pass));
+    };
+    return callbacks;
+}
+
 bool isFitted(const View& view)
 {
     return view.projection.gpu_cascade != kNoIndex;
@@ -49,9 +62,9 @@ bool isFitted(const View& view)
 
 } // namespace
 
-Shadows::Shadows(SceneData& scene, const RenderOptions& options)
+Shadows::Shadows(SceneData& scene, const RenderOptions& options, vulkan::Profiler& profiler)
     : reads(readBy(scene.table, resolvedOrThrow(options.shadow))), planner(resolvedOrThrow(options.shadow).asked()),
-      renderer(scene.gpu.view(), rendererOptions(scene, options, reads)),
+      renderer(scene.gpu.view(), rendererOptions(scene, options, reads, classicCallbacks(*this, profiler))),
       casters(scene.gpu.view(), casterOptions(scene.gpu, options))
 {
     casters.setScene(scene.table.caster_parts, scene.table.caster_objects, scene.table.caster_batches);

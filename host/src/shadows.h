@@ -10,7 +10,7 @@
 #include "host/frame_renderer.h"
 
 #include <gnomon/draw_rate.h>
-#include <gnomon/vulkan/fin_drawer.h>
+#include <gnomon/vulkan/classics.h>
 
 #include <optional>
 
@@ -18,8 +18,10 @@ namespace gnomon::host {
 
 /// Frames that the GPU has not finished share one, so it lives until the last of them is done.
 struct Shadows {
-    /// Throws Error.
-    Shadows(SceneData& scene, const RenderOptions& options);
+    /// `profiler` is told of draws of classic techniques, and lives longer. Throws Error.
+    Shadows(SceneData& scene, const RenderOptions& options, vulkan::Profiler& profiler);
+    Shadows(const Shadows&) = delete; // callbacks point to it
+    Shadows& operator=(const Shadows&) = delete;
 
     /// The last plan again for this frame's eye; its maps must not be drawn.
     [[nodiscard]] const Plan& planAgain(const Frame& frame);

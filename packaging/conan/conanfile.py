@@ -74,9 +74,10 @@ class GnomonConan(ConanFile):
         self.cpp_info.set_property("cmake_find_mode", "none")
         self.cpp_info.builddirs.append(os.path.join("lib", "cmake", "gnomon"))
         below = []
-        for name in ("core", "pack", "vulkan"):
+        for name in ("core", "pack", "vulkan", "vulkan_classics"):
             part = self.cpp_info.components[name]
-            part.libs = [f"gnomon-{name}"]
+            # The shared library of vulkan has classics, too.
+            part.libs = [] if self.options.shared and name == "vulkan_classics" else [f"gnomon-{name}"]
             part.set_property("pkg_config_name", f"gnomon-{name}")
             part.requires = list(below)
             below.append(name)

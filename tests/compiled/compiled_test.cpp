@@ -7,6 +7,7 @@
 
 #include "null_driver.h"
 
+#include <gnomon_classic_spirv.h>
 #include <gnomon_spirv.h>
 
 #include <gtest/gtest.h>
@@ -34,9 +35,13 @@ bool updating()
 ModuleNames libraryModules()
 {
     ModuleNames names;
-    for (std::size_t i = 0; i < std::size(spirv::all_of_gnomon_spirv); ++i) {
-        names[spirv::all_of_gnomon_spirv[i]->data()] = spirv::names_of_gnomon_spirv[i];
-    }
+    const auto add = [&](const auto& modules, const auto& called) {
+        for (std::size_t i = 0; i < std::size(modules); ++i) {
+            names[modules[i]->data()] = called[i];
+        }
+    };
+    add(spirv::all_of_gnomon_spirv, spirv::names_of_gnomon_spirv);
+    add(spirv::all_of_gnomon_classic_spirv, spirv::names_of_gnomon_classic_spirv);
     return names;
 }
 
@@ -95,7 +100,7 @@ TEST_P(Pipelines, AllCompile)
 
 TEST_P(Pipelines, AreOfEveryModule)
 {
-    for (const char* name : spirv::names_of_gnomon_spirv) {
+    for (const auto& [words, name] : libraryModules()) {
         EXPECT_EQ(compiledFor(GetParam()).modules.contains(name), !isForSoftware(name)) << name;
     }
 }

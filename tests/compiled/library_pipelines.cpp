@@ -5,8 +5,7 @@
 #include "option_steps.h"
 
 #include <gnomon/vulkan/caster_drawer.h>
-#include <gnomon/vulkan/fin_drawer.h>
-#include <gnomon/vulkan/volume_drawer.h>
+#include <gnomon/vulkan/classics.h>
 
 #include <string>
 #include <string_view>
@@ -92,7 +91,11 @@ void warmUp(const vulkan::DeviceView& view, VkDescriptorSet texture, const char*
 {
     const std::string sized = line + std::string(" map-size=64");
     const ResolvedOptions options = resolvedOrThrow(test::optionsFrom(sized));
-    ShadowRenderer renderer(view, {.draws_fins = true});
+    const vulkan::ClassicCallbacks none{.fins = [](const vulkan::FinPass&) {},
+                                        .volumes =
+                                            [](const vulkan::VolumePass&) {
+                                            }};
+    ShadowRenderer renderer(view, {.classics = vulkan::makeClassics(none)});
     renderer.warmUp(options, what);
     if (options.hasMaps()) {
         CasterDrawer drawer(

@@ -94,7 +94,7 @@ class Installed(Case):
 
     def test_component_that_is_unknown_is_named(self):
         self.fails(self.project("find_package(gnomon REQUIRED COMPONENTS core volcano)"),
-                   'gnomon has no component "volcano"; it has core, pack, vulkan, shaders')
+                   'gnomon has no component "volcano"; it has core, pack, vulkan, vulkan_classics, shaders')
         self.passes(self.project("find_package(gnomon REQUIRED OPTIONAL_COMPONENTS volcano core)",
                                  "if(gnomon_volcano_FOUND OR NOT gnomon_core_FOUND)", "message(FATAL_ERROR no)", "endif()"))
 
@@ -129,10 +129,16 @@ class Installed(Case):
         self.passes(run(OPTIONS.cxx, "-std=c++20", build / "record.cpp", "-o", build / "record",
                         *flags("--cflags", "--libs", "gnomon-vulkan")))
         self.passes(run(build / "record"))
+        text = "#include <gnomon/vulkan/classics.h>\nint main() { return gnomon::vulkan::makeClassics() == nullptr; }\n"
+        (build / "classics.cpp").write_text(text, encoding="utf-8")
+        self.passes(run(OPTIONS.cxx, "-std=c++20", build / "classics.cpp", "-o", build / "classics",
+                        *flags("--cflags", "--libs", "gnomon-vulkan_classics")))
+        self.passes(run(build / "classics"))
         include = flags("--variable=includedir", "gnomon-shaders")[0]
         self.passes(run("glslc", "--target-env=vulkan1.3", "-DGNOMON_FILTER=GNOMON_FILTER_HARD", "-I", include,
                         CONSUMER / "visible.frag", "-o", build / "visible.spv"))
-        self.assertEqual(flags("--modversion", "gnomon-core", "gnomon-pack", "gnomon-vulkan", "gnomon-shaders"), ["0.1.0"] * 4)
+        self.assertEqual(flags("--modversion", "gnomon-core", "gnomon-pack", "gnomon-vulkan", "gnomon-vulkan_classics", "gnomon-shaders"),
+                         ["0.1.0"] * 5)
 
     def test_examples(self):
         for name in ("minimal_host", "forward_host"):
@@ -147,6 +153,11 @@ class InBuild(Case):
     def test_add_subdirectory(self):
         build = folder("add_subdirectory")
         self.passes(configure(CONSUMER, build, "-DHOW=add_subdirectory", f"-DGNOMON_SOURCE={OPTIONS.source}"))
+        # Whoever does not link classic techniques does not compile them.
+        for target, has in (("all", False), ("classics", True)):
+            inputs = self.passes(run("ninja", "-C", build, "-t", "inputs", target))
+            self.assertEqual(has, "gnomon_classic_spirv" in inputs, target)
+            self.assertEqual(has, "gnomon_vulkan_classics" in inputs, target)
         # All but the library itself, which takes a minute: tools/package_test.sh builds and runs it.
         self.passes(run("cmake", "--build", build, "--target", "consumer_spirv", "CMakeFiles/plan.dir/plan.cpp.o"))
         # Of what is another project's part nothing is installed.

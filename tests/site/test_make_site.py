@@ -75,7 +75,7 @@ class Reference(Folder):
         for name in ("site/Doxyfile", "site/api.css", "app/pages/look.css", "tools/doxygen_filter.py"):
             self.write(name, (ROOT / name).read_text(encoding="utf-8"))
         self.write("core/include/gnomon/thing.h", header)
-        for name in ("pack/include", "vulkan/include"):
+        for name in ("pack/include", "vulkan/include", "vulkan/classics/include"):
             (self.folder / name).mkdir(parents=True)
         for name in ("visibility", "smooth_surface", "caster", "compact_mask"):
             self.write(f"shaders/include/gnomon/{name}.glsl", "// SPDX\n// F.\n")

@@ -16,9 +16,15 @@ Aabb boundsOf(const Box& box)
     return {glm::vec3(box.centre) - reach, glm::vec3(box.centre) + reach};
 }
 
-vulkan::ShadowRendererOptions drawingFins(vulkan::ShadowRendererOptions options)
+vulkan::ShadowRendererOptions withClassics(vulkan::ShadowRendererOptions options, vulkan::FinDrawer& fins)
 {
-    options.draws_fins = true;
+    vulkan::ClassicCallbacks callbacks;
+    callbacks.fins = [&fins](const vulkan::FinPass& pass) {
+        (void)fins.draw(pass);
+    };
+    callbacks.volumes = [](const vulkan::VolumePass&) {
+    };
+    options.classics = vulkan::makeClassics(callbacks);
     return options;
 }
 
@@ -38,14 +44,14 @@ std::ostream& operator<<(std::ostream& out, const Made& made)
 }
 
 ChangingHost::ChangingHost(const vulkan::ShadowRendererOptions& options)
-    : own_(std::make_unique<NullDriver>()), driver(*own_), renderer(driver.view(), drawingFins(options)),
+    : own_(std::make_unique<NullDriver>()), driver(*own_), renderer(driver.view(), withClassics(options, fins)),
       drawer(driver.view(), withPieces()), fins(driver.view(), {})
 {
     begin();
 }
 
 ChangingHost::ChangingHost(NullDriver& shared, const vulkan::ShadowRendererOptions& options)
-    : driver(shared), renderer(driver.view(), drawingFins(options)), drawer(driver.view(), withPieces()),
+    : driver(shared), renderer(driver.view(), withClassics(options, fins)), drawer(driver.view(), withPieces()),
       fins(driver.view(), {})
 {
     begin();
@@ -56,7 +62,7 @@ void ChangingHost::begin()
     addObjects();
     makeScene();
     draw_ = [this](const vulkan::MapPass& pass) {
-        (void)(pass.classic.formats.fins ? fins.draw(pass) : drawer.draw(pass));
+        (void)drawer.draw(pass);
     };
     for (Views& views : views_) {
         views = {driver.makeView(), driver.makeView(), driver.makeView()};
@@ -174,8 +180,6 @@ vulkan::MaskInputs ChangingHost::inputsOf(std::uint32_t slot, const FrameSetup& 
     inputs.normal = setup.inputs.normals ? views.normal : VK_NULL_HANDLE;
     inputs.object_id = setup.inputs.ids ? views.id : VK_NULL_HANDLE;
     inputs.object_pieces = true;
-    inputs.volumes = [](const vulkan::VolumePass&) {
-    };
     return inputs;
 }
 

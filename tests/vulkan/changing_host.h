@@ -6,7 +6,7 @@
 #include "scene.h"
 
 #include <gnomon/planner.h>
-#include <gnomon/vulkan/fin_drawer.h>
+#include <gnomon/vulkan/classics.h>
 
 #include <array>
 #include <memory>

@@ -83,7 +83,7 @@ Bench::Bench(VkExtent2D screen, MapFormat format, bool reversed_z, bool cull)
 
 Bench::Bench(VkExtent2D screen, const ShadowOptions& options_in, bool reversed_z, bool cull,
              const vulkan::MemoryHooks& memory, bool clockwise)
-    : options(options_in), renderer(viewWith(memory), {.frames_in_flight = 1}),
+    : options(options_in), renderer(viewWith(memory), {.frames_in_flight = 1, .classics = vulkan::makeClassics()}),
       drawer(gpu().view(), drawerOptions(cull, clockwise)), screen_(screen)
 {
     camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(screen.width) / screen.height, reversed_z);

@@ -2,8 +2,6 @@
 // Wrong calls of the backend: each is a value or an Error with a sentence, and records nothing.
 #include "misuser.h"
 
-#include <gnomon/vulkan/fin_drawer.h>
-
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -219,35 +217,6 @@ TEST(Misuse, OfIdsOfObjectsIsAnError)
     expectRefused(host, "MaskInputs::object_id is null", [&] { host.mask(); });
     host.inputs.object_id = host.driver.makeView();
     host.record();
-}
-
-TEST(Misuse, OfFinsIsAnError)
-{
-    ShadowOptions options{.technique = kPlainTechnique};
-    options.technique.filter = Filter::smoothies;
-    Misuser host(options);
-    expectRefused(host, "give the edges of casters to a FinDrawer", [&] { host.prepare(); });
-    vulkan::FinDrawer fins(host.driver.view(), {});
-    vulkan::MapPass pass;
-    pass.commands = host.driver.commands();
-    pass.classic.formats.fins = true;
-    expectRefused(host, "call beginFrame() first", [&] { (void)fins.draw(pass); });
-    const VkBuffer buffer = host.driver.makeBuffer();
-    const vulkan::VolumeGeometry geometry{{buffer, 64}, {buffer, 64}, {buffer, 64}};
-    expectRefused(host, "slot", [&] { fins.beginFrame(2, geometry, host.transforms); });
-    expectRefused(host, "fill in all three", [&] { fins.beginFrame(0, {}, host.transforms); });
-    fins.setScene(std::vector<vulkan::VolumeMesh>(host.transforms.size() + 1));
-    expectRefused(host, "give one for each object", [&] { fins.beginFrame(0, geometry, host.transforms); });
-    fins.setScene({});
-    fins.beginFrame(0, geometry, host.transforms);
-    expectRefused(host, "hand in passes with ClassicFormats::fins", [&] { (void)fins.draw(pass); }); // of no plan
-    fins.setScene({}); // for whose objects there may be too few transforms
-    expectRefused(host, "call beginFrame() first", [&] { (void)fins.draw(pass); });
-    Misuser plain;
-    plain.prepare();
-    plain.begin();
-    expectRefused(plain, "hand passes with ClassicFormats::fins to a FinDrawer",
-                  [&] { (void)plain.drawer.draw(pass); });
 }
 
 TEST(Misuse, OfTexturesWithoutCoordinatesIsAnError)

@@ -27,7 +27,8 @@ inline constexpr VkExtent2D kPicture{64, 48};
 class Misuser {
 public:
     explicit Misuser(const ShadowOptions& options = {}, const vulkan::CasterDrawerOptions& casters = {})
-        : renderer(driver.view(), {}), drawer(driver.view(), casters), profiler(driver.view(), 2, 8)
+        : renderer(driver.view(), {.classics = vulkan::makeClassics()}), drawer(driver.view(), casters),
+          profiler(driver.view(), 2, 8)
     {
         lights = {makeSun({0.5, -1.0, 0.2}), makeSpot({4.0, 8.0, 2.0}, {0.0, 0.0, 0.0}, 0.5)};
         const std::vector<Tile> tiles{{0, 0, 0, 256, 256}, {1, 0, 0, 256, 256}};

@@ -227,7 +227,10 @@ Rendered renderParity(const ShadowOptions& options, ParityLights lights)
 
     vulkan::ShadowRendererOptions renderer_options;
     renderer_options.frames_in_flight = kFrames;
-    renderer_options.draws_fins = true;
+    vulkan::FinDrawer fins(gpu().view(), {.frames_in_flight = kFrames});
+    renderer_options.classics = vulkan::makeClassics({.fins = [&fins](const vulkan::FinPass& pass) {
+        (void)fins.draw(pass);
+    }});
     ShadowRenderer renderer(gpu().view(), renderer_options);
     vulkan::CasterDrawerOptions drawer_options;
     drawer_options.frames_in_flight = kFrames;
@@ -238,7 +241,6 @@ Rendered renderParity(const ShadowOptions& options, ParityLights lights)
         partSides(gpu(), mesh);
     }
     drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
-    vulkan::FinDrawer fins(gpu().view(), {.frames_in_flight = kFrames});
     fins.setScene(mesh.outlines);
     const auto transforms = r.scene.transforms();
     EXPECT_TRUE(renderer.prepare(r.plan, kParityScreen));
@@ -248,9 +250,7 @@ Rendered renderParity(const ShadowOptions& options, ParityLights lights)
         for (std::uint32_t slot = 0; slot < kFrames; ++slot) {
             drawer.beginFrame(slot, r.plan, mesh.geometry, transforms);
             fins.beginFrame(slot, mesh.edges, transforms);
-            renderer.recordMaps(commands, slot, r.plan, [&](const MapPass& pass) {
-                (void)(pass.classic.formats.fins ? fins.draw(pass) : drawer.draw(pass));
-            });
+            renderer.recordMaps(commands, slot, r.plan, drawer.callback());
             renderer.recordMask(commands, slot, r.plan, inputs);
         }
     });

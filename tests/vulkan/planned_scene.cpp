@@ -3,6 +3,17 @@
 
 namespace gnomon::test {
 
+namespace {
+
+std::shared_ptr<const vulkan::Classics> classicsOf(vulkan::FinDrawer& fins)
+{
+    return vulkan::makeClassics({.fins = [&fins](const vulkan::FinPass& pass) {
+        (void)fins.draw(pass);
+    }});
+}
+
+} // namespace
+
 Drawing::Drawing(Gpu& gpu, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in,
                  std::uint32_t frames_in_flight)
     : Drawing(gpu.view(), mesh, compact_in, frames_in_flight)
@@ -12,7 +23,7 @@ Drawing::Drawing(Gpu& gpu, const SceneMesh& mesh, const pack::CompactMaskRule& c
 Drawing::Drawing(const vulkan::DeviceView& view, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in,
                  std::uint32_t frames_in_flight)
     : compact(compact_in),
-      renderer(view, {.frames_in_flight = frames_in_flight, .compact = compact_in, .draws_fins = true}),
+      renderer(view, {.frames_in_flight = frames_in_flight, .compact = compact_in, .classics = classicsOf(fins)}),
       drawer(view, {.frames_in_flight = frames_in_flight}), fins(view, {.frames_in_flight = frames_in_flight})
 {
     drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
@@ -106,12 +117,7 @@ std::vector<std::byte> PlannedScene::draw(Drawing& drawing, const Plan& plan, st
         drawing.drawer.beginFrame(slot, plan, mesh_.geometry, transforms);
         drawing.fins.beginFrame(slot, mesh_.edges, transforms);
         drawing.renderer.recordBounds(commands, slot, plan, inputs_, profiler);
-        drawing.renderer.recordMaps(
-            commands, slot, plan,
-            [&](const vulkan::MapPass& pass) {
-                (void)(pass.classic.formats.fins ? drawing.fins.draw(pass) : drawing.drawer.draw(pass));
-            },
-            profiler);
+        drawing.renderer.recordMaps(commands, slot, plan, drawing.drawer.callback(), profiler);
         drawing.renderer.recordMask(commands, slot, plan, inputs_, profiler);
     });
     const vulkan::ImageRef mask = drawing.renderer.mask();

@@ -5,6 +5,7 @@
 #include "scene.h"
 
 #include <gnomon/planner.h>
+#include <gnomon/vulkan/classics.h>
 
 #include <vector>
 
@@ -16,6 +17,9 @@ struct Drawing {
             std::uint32_t frames_in_flight = 2);
     Drawing(const vulkan::DeviceView& view, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in = {},
             std::uint32_t frames_in_flight = 2);
+
+    Drawing(const Drawing&) = delete; // a callback points to it
+    Drawing& operator=(const Drawing&) = delete;
 
     pack::CompactMaskRule compact;
     vulkan::ShadowRenderer renderer;

@@ -6,7 +6,7 @@
 #include "harness.h"
 
 #include <gnomon/vulkan/caster_drawer.h>
-#include <gnomon/vulkan/fin_drawer.h>
+#include <gnomon/vulkan/classics.h>
 
 #include <glm/glm.hpp>
 

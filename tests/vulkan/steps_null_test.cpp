@@ -19,7 +19,8 @@ constexpr VkExtent2D kScreen{64, 48};
 // A sun's two positions over the scene of boxes.
 class Host {
 public:
-    Host(NullDriver& driver_in, Filter filter, MapFormat format) : driver(driver_in), renderer(driver.view(), {})
+    Host(NullDriver& driver_in, Filter filter, MapFormat format)
+        : driver(driver_in), renderer(driver.view(), {.classics = vulkan::makeClassics()})
     {
         const std::vector<Tile> tiles{{0, 0, 0, 256, 256}};
         plan = makePlan(scene, lights, tiles, {256, 256, 2}, optionsOf(filter, format));

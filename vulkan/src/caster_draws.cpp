@@ -3,6 +3,7 @@
 #include "caster_drawer_impl.h"
 #include "caster_instances.h"
 #include "draw_view.h"
+#include "map_storage.h"
 #include "usage.h"
 
 #include <gnomon/plan_views.h>
@@ -39,7 +40,7 @@ void CasterDrawer::Impl::writeRows(const MapPass& pass, std::span<const std::uin
     auto* const out = reinterpret_cast<glm::vec4*>(static_cast<std::byte*>(slot->instances.data()) + instances_used);
     if (pass.view_count > 1) {
         writeLayeredInstances(pass, instances, casters, out);
-    } else if (pass.classic.formats.ids) {
+    } else if (classicFormats(pass).ids) {
         writeIdInstances(pass, instances, casters, out);
     } else {
         writeInstances(*pass.view, instances, casters, out);
@@ -58,7 +59,7 @@ void CasterDrawer::Impl::bindGeometry(const MapPass& pass) const
     if (geometry.colours != VK_NULL_HANDLE) {
         device.vk.CmdBindVertexBuffers(pass.commands, kColourBinding, 1, &geometry.colours, &geometry.colours_offset);
     }
-    if (pass.classic.formats.pieces) {
+    if (classicFormats(pass).pieces) {
         device.vk.CmdBindVertexBuffers(pass.commands, kPieceBinding, 1, &geometry.pieces, &geometry.pieces_offset);
     }
     if (pass.placement != VK_NULL_HANDLE && pass.view_count == 1) {
@@ -116,7 +117,7 @@ std::uint32_t CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraw
         }
         if (bound == VK_NULL_HANDLE && key.classic.behind_first) {
             device.vk.CmdBindDescriptorSets(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.layout(),
-                                            CasterPipelines::kFirstSurfaceSet, 1, &pass.classic.first_surface, 0,
+                                            CasterPipelines::kFirstSurfaceSet, 1, &pass.classic->first_surface, 0,
                                             nullptr);
         }
         bound = pipeline;
@@ -144,13 +145,10 @@ void CasterDrawer::Impl::checkPass(const MapPass& pass) const
         refuseUse(kDrawing, "no frame has begun", "call beginFrame() first");
     }
     checkCommands(kDrawing, pass.commands);
-    if (pass.classic.formats.fins) {
-        refuseUse(kDrawing, "the pass is of fins", "hand passes with ClassicFormats::fins to a FinDrawer");
-    }
     if (pass.view == nullptr || pass.view_count == 0 || pass.view_count > kMaxCascades) {
         refuseUse(kDrawing, "the pass has no view, or more than one pass can have", kAsGiven);
     }
-    if (pass.classic.formats.ids &&
+    if (classicFormats(pass).ids &&
         (pass.plan == nullptr || pass.plan->lights[pass.view->light].first_object_id == kNoIndex)) {
         refuseUse(kDrawing, "the map holds ids, and the plan has none for its light", kAsGiven);
     }
@@ -164,7 +162,7 @@ void CasterDrawer::Impl::checkPass(const MapPass& pass) const
 void CasterDrawer::Impl::checkRoom(const MapPass& pass, std::uint32_t instances) const
 {
     const VkDeviceSize bytes = instances * VkDeviceSize{instanceBytes(!pass.view->projection.orthographic,
-                                                                      pass.view_count > 1, pass.classic.formats.ids)};
+                                                                      pass.view_count > 1, classicFormats(pass).ids)};
     const VkDeviceSize commands = std::min(instances, batcher.maxCommands()) * kCommandBytes;
     if (instances > handles.size() || instances_used + bytes > slot->instances.size() ||
         commands_used + commands > slot->commands.size()) {
@@ -195,7 +193,7 @@ std::uint32_t CasterDrawer::draw(const MapPass& pass)
     self.bindGeometry(pass);
     CasterPipelineKey key;
     key.formats = pass.formats;
-    key.classic = pass.classic.formats;
+    key.classic = classicFormats(pass);
     key.perspective = !view.projection.orthographic;
     key.clamp = view.projection.clamp_near;
     // Blockers before blended casters are not drawn to texels that two maps share.
@@ -209,7 +207,7 @@ std::uint32_t CasterDrawer::draw(const MapPass& pass)
     }
     self.commands_used += lists.command_count * kCommandBytes;
     self.instances_used += VkDeviceSize{lists.instance_count} *
-                           instanceBytes(!view.projection.orthographic, layered, pass.classic.formats.ids);
+                           instanceBytes(!view.projection.orthographic, layered, classicFormats(pass).ids);
     self.triangles += lists.index_count / 3;
     return drawn;
 }

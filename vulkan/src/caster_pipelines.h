@@ -5,6 +5,7 @@
 #include "descriptors.h"
 
 #include <gnomon/vulkan/caster_drawer.h>
+#include <gnomon/vulkan/classic_pass.h>
 
 #include <array>
 

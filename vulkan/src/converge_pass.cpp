@@ -104,17 +104,17 @@ Pipeline ConvergePass::makePipeline(VkFormat mask_format, bool at_rest)
     return makeGraphicsPipeline(device_, state);
 }
 
-void ConvergePass::warmUp(VkFormat mask_format)
+void ConvergePass::warmUp(const MaskKind& mask)
 {
-    if (std::ranges::find(pipelines_, mask_format, &Made::mask_format) == pipelines_.end()) {
-        pipelines_.push_back({mask_format, makePipeline(mask_format, false), makePipeline(mask_format, true)});
+    if (std::ranges::find(pipelines_, mask.format, &Made::mask_format) == pipelines_.end()) {
+        pipelines_.push_back({mask.format, makePipeline(mask.format, false), makePipeline(mask.format, true)});
     }
 }
 
-void ConvergePass::prepare(const ImageInfo& mask, std::size_t lights)
+void ConvergePass::prepare(const Plan& plan, const ImageInfo& mask, const MaskShape&)
 {
-    warmUp(mask.format);
-    lights_.resize(std::max(lights_.size(), lights));
+    warmUp({.format = mask.format});
+    lights_.resize(std::max(lights_.size(), plan.lights.size()));
     if (!history_.prepare(mask)) {
         return;
     }
@@ -129,7 +129,7 @@ void ConvergePass::prepare(const ImageInfo& mask, std::size_t lights)
         slot.layers = HostBuffer(device_, info.layers * sizeof(shared::GpuConverge), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                                  "what converges");
     }
-    planner_ = 0;
+    forget();
 }
 
 VkFormat ConvergePass::targetFormat(VkFormat mask_format)
@@ -137,13 +137,14 @@ VkFormat ConvergePass::targetFormat(VkFormat mask_format)
     return MaskHistory::visibilityFormat(kHistory, mask_format);
 }
 
-void ConvergePass::writeSet(const Slot& slot, const ConvergeInputs& inputs)
+void ConvergePass::writeSet(const Slot& slot, const MaskJob& job)
 {
+    const MaskInputs& inputs = job.inputs;
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const VkSampler sampler = sampler_.get();
     const bool has_normals = inputs.normal != VK_NULL_HANDLE;
     const std::array<DescriptorSets::Write, kBindingCount> writes{
-        DescriptorSets::buffer(kConstants, inputs.constants, sizeof(shared::GpuConstants)),
+        DescriptorSets::buffer(kConstants, job.constants, sizeof(shared::GpuConstants)),
         DescriptorSets::buffer(kLayers, slot.layers.buffer()),
         DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
         DescriptorSets::image(kNormal, sampler, has_normals ? inputs.normal : inputs.depth,
@@ -266,12 +267,13 @@ void ConvergePass::recordLayer(VkCommandBuffer commands, std::uint32_t layer, co
     device_.vk.CmdEndRendering(commands);
 }
 
-void ConvergePass::record(VkCommandBuffer commands, std::uint32_t slot_index, const Plan& plan,
-                          const ConvergeInputs& inputs, const Image& mask)
+void ConvergePass::record(const MaskJob& job, const Image& mask)
 {
-    const Slot& slot = slots_[slot_index];
-    const bool has_normals = inputs.normal != VK_NULL_HANDLE;
-    writeSet(slot, inputs);
+    const VkCommandBuffer commands = job.commands;
+    const Plan& plan = job.plan;
+    const Slot& slot = slots_[job.slot];
+    const bool has_normals = job.inputs.normal != VK_NULL_HANDLE;
+    writeSet(slot, job);
     const bool at_rest = fill(slot, plan, has_normals);
     const VkDescriptorSet set = slot.sets[history_.turn()];
     history_.begin(commands);

@@ -5,6 +5,7 @@
 
 #include "descriptors.h"
 #include "mask_history.h"
+#include "mask_step.h"
 
 #include <gnomon/shared/gpu_converge.h>
 
@@ -12,31 +13,20 @@
 
 namespace gnomon::vulkan {
 
-/// The inputs of the pass besides its own images.
-struct ConvergeInputs {
-    VkImageView depth = VK_NULL_HANDLE;
-    VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VkImageView normal = VK_NULL_HANDLE; // VK_NULL_HANDLE: none
-    VkBuffer constants = VK_NULL_HANDLE; // begins with a GpuConstants
-};
-
-class ConvergePass {
+class ConvergePass final : public FrameJoiner {
 public:
     ConvergePass(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache);
 
-    /// Makes the pipeline for masks of this format, if it is not there.
-    void warmUp(VkFormat mask_format);
-    /// Makes images like the mask if those that are there are not; then nothing of the frame before is known.
-    void prepare(const ImageInfo& mask, std::size_t lights);
+    void warmUp(const MaskKind& mask) override;
+    /// With new images nothing of the frame before is known.
+    void prepare(const Plan& plan, const ImageInfo& mask, const MaskShape& shape) override;
     /// The format of target(), by the mask's: floats, which have room for the packing of gnomon/shared/converge.h.
     [[nodiscard]] static VkFormat targetFormat(VkFormat mask_format);
     /// Over how many frames in a row, up to this one, neither the camera nor a light nor an object has moved.
     [[nodiscard]] std::uint32_t stood(const Plan& plan) const;
-    /// Where this frame's visibility alone is to be drawn; afterwards it is to be readable by fragment shaders.
-    [[nodiscard]] const Image& target() const { return target_; }
-    /// All layers. The mask is in COLOR_ATTACHMENT_OPTIMAL.
-    void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const ConvergeInputs& inputs,
-                const Image& mask);
+    [[nodiscard]] const Image& target() const override { return target_; }
+    void forget() override { planner_ = 0; }
+    void record(const MaskJob& job, const Image& mask) override;
 
 private:
     /// A light of the last frame.
@@ -49,7 +39,7 @@ private:
         HostBuffer layers;                   // GpuConverge by layer of the mask
         std::array<VkDescriptorSet, 2> sets; // by turn
     };
-    void writeSet(const Slot& slot, const ConvergeInputs& inputs);
+    void writeSet(const Slot& slot, const MaskJob& job);
     [[nodiscard]] Pipeline makePipeline(VkFormat mask_format, bool at_rest);
     [[nodiscard]] bool goesOn(const Plan& plan) const;
     [[nodiscard]] bool isAgain(const Plan& plan) const;

@@ -84,11 +84,34 @@ void DepthBlocks::addPass(Kind& kind, std::uint32_t first_level, const Descripto
     kind.sets.write(pass.set, writes);
 }
 
+void DepthBlocks::record(const MapJob& job)
+{
+    if (is_new_) {
+        recordAll(job.commands);
+        return;
+    }
+    bool begun = false;
+    for (std::uint32_t i = 0; i < job.plan.views.size(); ++i) {
+        if (!job.of(i).draw) {
+            continue;
+        }
+        if (!begun) {
+            begin(job.commands);
+            begun = true;
+        }
+        const View& view = job.plan.views[i];
+        recordArea(job.commands, redrawnArea(view, job.of(i).whole), view.place.tile.layer);
+    }
+    if (begun) {
+        end(job.commands);
+    }
+}
+
 void DepthBlocks::recordAll(VkCommandBuffer commands)
 {
     begin(commands);
     for (std::uint32_t layer = 0; layer < layers_; ++layer) {
-        record(commands, {{0, 0}, maps_}, layer);
+        recordArea(commands, {{0, 0}, maps_}, layer);
     }
     end(commands);
     is_new_ = false;
@@ -118,7 +141,7 @@ void DepthBlocks::end(VkCommandBuffer commands)
     recordBarrier(device_, commands, barrier);
 }
 
-void DepthBlocks::record(VkCommandBuffer commands, const VkRect2D& area, std::uint32_t layer)
+void DepthBlocks::recordArea(VkCommandBuffer commands, const VkRect2D& area, std::uint32_t layer)
 {
     MemoryBarrier barrier;
     barrier.source_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;

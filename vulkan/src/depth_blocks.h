@@ -5,29 +5,19 @@
 
 #include "barriers.h"
 #include "descriptors.h"
+#include "map_step.h"
 
 namespace gnomon::vulkan {
 
-class DepthBlocks {
+class DepthBlocks final : public MapStep {
 public:
     DepthBlocks(Device& device, VkPipelineCache cache);
 
-    /// For these maps, an image that has just been made. All blocks are to be made by recordAll() then.
-    void setMaps(const Image& maps);
-    [[nodiscard]] bool isNew() const { return is_new_; }
-
-    // While commands are recorded, the maps being readable by shaders:
-
-    /// Records the blocks of all layers and texels.
-    void recordAll(VkCommandBuffer commands);
-    /// To be called before and after any number of record().
-    void begin(VkCommandBuffer commands);
-    void end(VkCommandBuffer commands);
-    /// Records the blocks of one layer that texels of `area` lie in.
-    void record(VkCommandBuffer commands, const VkRect2D& area, std::uint32_t layer);
-
-    /// Level L of the blocks is mip level L - 1. In GENERAL once recorded.
-    [[nodiscard]] const Image& image() const { return image_; }
+    /// The next record() makes all blocks.
+    void setMaps(const Image& maps) override;
+    void record(const MapJob& job) override;
+    /// Level L of the blocks is mip level L - 1.
+    [[nodiscard]] const Image& image() const override { return image_; }
 
 private:
     struct Kind {
@@ -48,6 +38,12 @@ private:
     };
 
     [[nodiscard]] Kind makeKind(VkDescriptorType source, std::span<const std::uint32_t> code, VkPipelineCache cache);
+    void recordAll(VkCommandBuffer commands);
+    /// Before and after any number of recordArea().
+    void begin(VkCommandBuffer commands);
+    void end(VkCommandBuffer commands);
+    /// The blocks of one layer that texels of `area` lie in.
+    void recordArea(VkCommandBuffer commands, const VkRect2D& area, std::uint32_t layer);
     void addPass(Kind& kind, std::uint32_t first_level, const DescriptorSets::Write& source);
     void dispatch(VkCommandBuffer commands, const Pass& pass, const VkRect2D& area, std::uint32_t layer);
 
@@ -55,7 +51,7 @@ private:
     Image image_;
     VkExtent2D maps_{};
     std::uint32_t layers_ = 0;
-    bool is_new_ = false;
+    bool is_new_ = false; // no block is made yet
     bool has_layout_ = false;
     Kind from_maps_;
     Kind from_blocks_;

@@ -3,6 +3,8 @@
 
 #include <gnomon/error.h>
 
+#include <gnomon_spirv.h>
+
 #include <cstring>
 
 namespace gnomon::vulkan {
@@ -95,7 +97,9 @@ void MemoryAccount::remove(const char* purpose, VkDeviceSize bytes)
     }
 }
 
-Device::Device(const DeviceView& view) : vk(loadFunctions(view)), view_(view)
+Device::Device(const DeviceView& view, const ShaderList& further)
+    : vk(loadFunctions(view)),
+      view_(view), shaders_{ShaderList{spirv::all_of_gnomon_spirv, spirv::names_of_gnomon_spirv}, further}
 {
     VkPhysicalDeviceProperties properties{};
     vk.GetPhysicalDeviceProperties(view.physical_device, &properties);

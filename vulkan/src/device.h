@@ -8,7 +8,9 @@
 #include <gnomon/vulkan/shadow_renderer.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -31,9 +33,16 @@ private:
     std::vector<MemoryUse> uses_;
 };
 
+/// Shader modules that a library embeds (gnomon_shaders() in cmake/shaders.cmake), and what each is called.
+struct ShaderList {
+    std::span<const std::span<const std::uint32_t>* const> modules;
+    std::span<const char* const> names; // of the same length
+};
+
 class Device {
 public:
-    explicit Device(const DeviceView& view);
+    /// `further`: modules beside the library's own.
+    explicit Device(const DeviceView& view, const ShaderList& further = {});
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
@@ -45,7 +54,10 @@ public:
     [[nodiscard]] const DeviceView& view() const { return view_; }
     [[nodiscard]] bool software() const { return software_; } // a CPU draws
     [[nodiscard]] VkFormatFeatureFlags features(VkFormat format) const;
-    [[nodiscard]] const ShaderHook& shaderHook() const { return view_.shaders; }
+    /// The module to make of this one: itself, or the host's in its place.
+    [[nodiscard]] std::span<const std::uint32_t> hooked(std::span<const std::uint32_t> spirv) const;
+    /// The module of this name (shaders/CMakeLists.txt); empty: there is none.
+    [[nodiscard]] std::span<const std::uint32_t> shaderCalled(std::string_view name) const;
     [[nodiscard]] const MemoryAccount& account() const { return account_; }
 
     /// Throws Error when there is none.
@@ -76,6 +88,7 @@ private:
     [[nodiscard]] VkDeviceMemory allocateOwn(const MemoryRequest& request, const char* tried);
 
     DeviceView view_;
+    std::array<ShaderList, 2> shaders_; // the library's own, and further ones
     VkPhysicalDeviceLimits limits_{};
     bool software_ = false;
     VkPhysicalDeviceMemoryProperties memory_{};
@@ -216,8 +229,7 @@ public:
     DeviceBuffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, const char* purpose);
 };
 
+/// Of one of the device's modules.
 [[nodiscard]] ShaderModule makeShader(Device& device, std::span<const std::uint32_t> spirv);
-/// The library's module of this name (shaders/CMakeLists.txt); empty: there is none.
-[[nodiscard]] std::span<const std::uint32_t> shaderCalled(std::string_view name);
 
 } // namespace gnomon::vulkan

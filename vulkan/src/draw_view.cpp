@@ -43,28 +43,31 @@ std::span<const std::uint32_t> castersOf(const Plan& plan, const View& view, Cas
                                          : all.subspan(view.casters.still);
 }
 
-MapPass passOf(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, VkColorComponentFlags colour_mask)
+MapPass passOf(const MapJob& job, std::uint32_t index, VkColorComponentFlags colour_mask)
 {
-    const View& view = plan.views[index];
+    const View& view = job.plan.views[index];
     MapPass pass;
-    pass.commands = commands;
-    pass.formats = mapFormats(optionsOf(plan, view), view.projection.orthographic);
-    pass.classic.formats = classicFormats(optionsOf(plan, view));
-    pass.plan = &plan;
+    pass.commands = job.commands;
+    pass.formats = mapFormats(optionsOf(job.plan, view), view.projection.orthographic);
+    pass.classic = job.classic;
+    pass.plan = &job.plan;
     pass.view = &view;
     pass.view_index = index;
     pass.colour_mask = colour_mask;
     pass.clip_from_world = glm::mat4(view.projection.clip_from_world);
     pass.metric_ws = glm::vec4(view.projection.metric.metric_ws);
+    if (view.projection.gpu_cascade != kNoIndex) {
+        pass.placement = job.placements;
+        pass.placement_offset = index * kPlacementStride;
+    }
     return pass;
 }
 
-void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, CasterShare share,
-              VkColorComponentFlags colour_mask, const DrawCasters& draw)
+void drawView(const MapJob& job, std::uint32_t index, CasterShare share, VkColorComponentFlags colour_mask)
 {
-    MapPass pass = passOf(commands, plan, index, colour_mask);
-    pass.casters = castersOf(plan, plan.views[index], share);
-    draw(pass);
+    MapPass pass = passOf(job, index, colour_mask);
+    pass.casters = castersOf(job.plan, job.plan.views[index], share);
+    job.draw(pass);
 }
 
 VkRect2D redrawnArea(const View& view, bool all)

@@ -2,8 +2,7 @@
 // Shared steps of all passes that draw a view's casters.
 #pragma once
 
-#include "device.h"
-#include "map_notes.h"
+#include "map_recorder.h"
 
 namespace gnomon::vulkan {
 
@@ -23,11 +22,9 @@ void beginViewLabel(const Device& device, VkCommandBuffer commands, const Plan& 
 enum class CasterShare : std::uint8_t { all, still, moving };
 [[nodiscard]] std::span<const std::uint32_t> castersOf(const Plan& plan, const View& view, CasterShare share);
 /// The pass of a view, without its casters.
-[[nodiscard]] MapPass passOf(VkCommandBuffer commands, const Plan& plan, std::uint32_t view,
-                             VkColorComponentFlags colour_mask);
+[[nodiscard]] MapPass passOf(const MapJob& job, std::uint32_t view, VkColorComponentFlags colour_mask);
 /// Calls the host's callback for them. Rendering has begun.
-void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, CasterShare share,
-              VkColorComponentFlags colour_mask, const DrawCasters& draw);
+void drawView(const MapJob& job, std::uint32_t view, CasterShare share, VkColorComponentFlags colour_mask);
 /// The part of the map's tile that is drawn again: all of it, or ViewContents::dirty for a map that is restored.
 [[nodiscard]] VkRect2D redrawnArea(const View& view, bool all);
 /// `area` widened by x and y texels on each side, within the tile.

@@ -96,9 +96,9 @@ void KeptDepth::copyOutgrown(VkCommandBuffer commands)
     }
 }
 
-void KeptDepth::draw(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, const DrawCasters& draw)
+void KeptDepth::draw(const MapJob& job, std::uint32_t index)
 {
-    const View& view = plan.views[index];
+    const View& view = job.plan.views[index];
     VkImageLayout& layout = layouts_[view.contents.kept_layer];
     ImageBarrier barrier = barrierOf(image_, view.contents.kept_layer);
     barrier.old_layout = layout;
@@ -106,11 +106,11 @@ void KeptDepth::draw(VkCommandBuffer commands, const Plan& plan, std::uint32_t i
     barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT; // the old contents may have been copied just now
     barrier.target_stages = kDepthStages;
     barrier.target_access = kDepthAccess;
-    recordBarrier(device_, commands, barrier);
-    beginDepthRendering(device_, commands, view.place.tile, image_.layer(view.contents.kept_layer),
+    recordBarrier(device_, job.commands, barrier);
+    beginDepthRendering(device_, job.commands, view.place.tile, image_.layer(view.contents.kept_layer),
                         VK_ATTACHMENT_LOAD_OP_CLEAR);
-    drawView(commands, plan, index, CasterShare::still, 0, draw);
-    device_.vk.CmdEndRendering(commands);
+    drawView(job, index, CasterShare::still, 0);
+    device_.vk.CmdEndRendering(job.commands);
     layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     barrier.old_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     barrier.new_layout = layout;
@@ -118,7 +118,7 @@ void KeptDepth::draw(VkCommandBuffer commands, const Plan& plan, std::uint32_t i
     barrier.source_access = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
     barrier.target_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.target_access = VK_ACCESS_2_TRANSFER_READ_BIT;
-    recordBarrier(device_, commands, barrier);
+    recordBarrier(device_, job.commands, barrier);
 }
 
 void KeptDepth::restore(VkCommandBuffer commands, const View& view, const Image& working) const

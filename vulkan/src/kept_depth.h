@@ -25,7 +25,7 @@ public:
     /// To be called before anything else is recorded with an image that has grown.
     void copyOutgrown(VkCommandBuffer commands);
     /// Draws the still casters into the view's layer.
-    void draw(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, const DrawCasters& draw);
+    void draw(const MapJob& job, std::uint32_t view);
     /// Copies all of the tile from there to the first texels of the single layer of `working`; then casters can be
     /// drawn over it. Only compute shaders have read the old contents of `working`.
     void restore(VkCommandBuffer commands, const View& view, const Image& working) const;

@@ -32,21 +32,22 @@ std::uint32_t smoothiesOf(const ResolvedOptions& options)
 }
 
 std::unique_ptr<MapRecorder> makeRecorder(Device& device, const ResolvedOptions& options, LayerPlacer& placer,
-                                          std::uint32_t slots, VkPipelineCache cache)
+                                          std::uint32_t slots, VkPipelineCache cache, const Classics* classics)
 {
     const MapStorage& storage = storageFor(device, options);
     if (options.filterable()) {
         requirePart(device, "make filterable shadow maps", &FeatureUses::filterable);
         return std::make_unique<MomentMaps>(device, options, storage, placer, slots, cache);
     }
-    return std::make_unique<DepthMaps>(device, storage, options, cache);
+    return std::make_unique<DepthMaps>(device, storage, options, cache, classics);
 }
 
 } // namespace
 
-MapClass::MapClass(Device& device, const ResolvedOptions& options, std::uint32_t slots, VkPipelineCache cache)
-    : placer(device, options, cache), recorder(makeRecorder(device, options, placer, slots, cache)), tints(device),
-      filterable_(options.filterable()), has_ids_(options.traits().ids), filter_(options.filter()),
+MapClass::MapClass(Device& device, const ResolvedOptions& options, std::uint32_t slots, VkPipelineCache cache,
+                   const Classics* classics)
+    : placer(device, options, cache), recorder(makeRecorder(device, options, placer, slots, cache, classics)),
+      tints(device), filterable_(options.filterable()), has_ids_(options.traits().ids), filter_(options.filter()),
       format_(options.format()), smoothies_(smoothiesOf(options)), moments_(options.moments())
 {
 }

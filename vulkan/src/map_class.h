@@ -12,10 +12,14 @@
 
 namespace gnomon::vulkan {
 
+class Classics;
+
 class MapClass {
 public:
     /// Throws Error where the device cannot do what the options ask for.
-    MapClass(Device& device, const ResolvedOptions& options, std::uint32_t slots, VkPipelineCache cache);
+    /// `classics`: not null where the options need them.
+    MapClass(Device& device, const ResolvedOptions& options, std::uint32_t slots, VkPipelineCache cache,
+             const Classics* classics);
 
     /// Can it go on with other options? Only what their maps are made by counts.
     [[nodiscard]] bool serves(const ResolvedOptions& options) const;

@@ -120,8 +120,7 @@ void DepthMaps::drawKept(const MapJob& job, std::uint32_t index)
     if (view.place.part != TexelPart::whole) {
         restorer_->clear(job.commands, view.place.part);
     }
-    drawView(job.commands, job.plan, index, CasterShare::still, colourMaskOf(storage_.colour, view.place.part),
-             job.draw);
+    drawView(job, index, CasterShare::still, colourMaskOf(storage_.colour, view.place.part));
     device_.vk.CmdEndRendering(job.commands);
     device_.endLabel(job.commands);
 }

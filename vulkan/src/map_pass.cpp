@@ -2,6 +2,8 @@
 #include "map_pass.h"
 
 #include "barriers.h"
+#include "classics.h"
+#include "depth_blocks.h"
 #include "draw_view.h"
 #include "timed.h"
 
@@ -35,15 +37,14 @@ bool mayKeepStill(const ResolvedOptions& options)
 
 } // namespace
 
-DepthMaps::DepthMaps(Device& device, const MapStorage& storage, const ResolvedOptions& options, VkPipelineCache cache)
-    : device_(device), storage_(storage), clear_(options.traits().ids ? 0.0F : 1.0F), cache_(cache)
+DepthMaps::DepthMaps(Device& device, const MapStorage& storage, const ResolvedOptions& options, VkPipelineCache cache,
+                     const Classics* classics)
+    : device_(device), storage_(storage), clear_(options.traits().ids ? 0.0F : 1.0F), cache_(cache), classics_(classics)
 {
     if (options.traits().integrates_light) {
-        blocks_.emplace(device, cache);
-    } else if (options.hasFins()) {
-        fins_.emplace(device, options);
+        step_ = std::make_unique<DepthBlocks>(device, cache);
     } else if (options.hasSmoothies()) {
-        smoothies_.emplace(device, options, cache);
+        step_ = classics_->makeSmoothies(device, options, cache);
     }
 }
 
@@ -67,21 +68,15 @@ void DepthMaps::makeMaps(const MapPages& size)
         depth_ = Image(device_, {storage_.depth, extent, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                                  VK_IMAGE_ASPECT_DEPTH_BIT, "shadow map depth"});
     }
-    if (blocks_) {
-        blocks_->setMaps(maps_.image());
-    }
-    if (smoothies_) {
-        smoothies_->setMaps(maps_.image());
-    }
-    if (fins_) {
-        fins_->setMaps(maps_.image());
+    if (step_) {
+        step_->setMaps(maps_.image());
     }
 }
 
 void DepthMaps::warmUp(const ResolvedOptions& options)
 {
     if (isDrawnTwice(options)) {
-        midpoints_.emplace(device_, storage_, cache_);
+        painter_ = classics_->makeMidpoints(device_, storage_, cache_);
         return; // and then keeps nothing, and shares no texels
     }
     const bool shares_texels = options.paired_maps() && mayStep(options);
@@ -111,7 +106,7 @@ MapRecorder::Prepared DepthMaps::prepare(const Plan& plan, std::uint32_t options
     if (!maps_.covers({need.width, need.height}, need.layers)) {
         makeMaps(need);
         prepared.changed = true;
-        prepared.lost = smoothies_ || fins_; // they are not copied, and are made of maps that are drawn
+        prepared.lost = step_ && step_->needsDrawnMaps();
     }
     if (!restorer_ && (pages.kept_layers > 0 || sharesTexels(plan, options))) {
         restorer_.emplace(device_, storage_, cache_);
@@ -123,10 +118,10 @@ MapRecorder::Prepared DepthMaps::prepare(const Plan& plan, std::uint32_t options
     }
     prepared.changed = prepareKept(plan, options) || prepared.changed;
     if (isDrawnTwice((*plan.options)[options])) {
-        if (!midpoints_) {
-            midpoints_.emplace(device_, storage_, cache_);
+        if (!painter_) {
+            painter_ = classics_->makeMidpoints(device_, storage_, cache_);
         }
-        midpoints_->cover(maps_.image().info().extent);
+        painter_->cover(maps_.image().info().extent);
     }
     prepareTogether(plan, options);
     return prepared;
@@ -270,9 +265,9 @@ void DepthMaps::drawMap(const MapJob& job, std::uint32_t index)
            view.place.tile.y + view.place.tile.height <= maps_.image().info().extent.height);
     beginViewLabel(device_, commands, job.plan, index);
     if (isDrawnTwice(optionsOf(job.plan, view))) {
-        midpoints_->drawSurfaces(job, index);
+        painter_->drawCasters(job, index);
         beginRendering(commands, view.place.tile, mapTarget(view, job.of(index)));
-        midpoints_->drawMidpoint(commands);
+        painter_->drawMap(commands);
         device_.vk.CmdEndRendering(commands);
         device_.endLabel(commands);
         return;
@@ -291,8 +286,8 @@ void DepthMaps::drawMap(const MapJob& job, std::uint32_t index)
     } else if (view.place.part != TexelPart::whole) {
         restorer_->clear(commands, view.place.part);
     }
-    drawView(commands, job.plan, index, view.contents.kept_layer != kNoIndex ? CasterShare::moving : CasterShare::all,
-             colourMaskOf(storage_.colour, view.place.part), job.draw);
+    drawView(job, index, view.contents.kept_layer != kNoIndex ? CasterShare::moving : CasterShare::all,
+             colourMaskOf(storage_.colour, view.place.part));
     device_.vk.CmdEndRendering(commands);
     device_.endLabel(commands);
 }
@@ -307,7 +302,7 @@ void DepthMaps::drawTogether(const MapJob& job, std::uint32_t first, std::uint32
     }
     const Tile& tile = job.plan.views[first].place.tile;
     beginRendering(commands, tile, targetOf(tile, count));
-    MapPass pass = passOf(commands, job.plan, first, colourMaskOf(storage_.colour, TexelPart::whole));
+    MapPass pass = passOf(job, first, colourMaskOf(storage_.colour, TexelPart::whole));
     pass.view_count = count;
     pass.casters = pass.castersOf(0);
     job.draw(pass);
@@ -324,40 +319,13 @@ void DepthMaps::record(const MapJob& job)
         drawKept(job);
         drawMaps(job);
         makeReadable(job.commands);
-        if (blocks_) {
-            makeBlocks(job);
+        if (step_ && step_->passName() == nullptr) {
+            step_->record(job);
         }
     }
-    if (smoothies_) {
-        const Timed timed(profiler, job.commands, "shadow filter");
-        smoothies_->record(job);
-    }
-    if (fins_) {
-        const Timed timed(profiler, job.commands, "shadow filter");
-        fins_->record(job);
-    }
-}
-
-void DepthMaps::makeBlocks(const MapJob& job)
-{
-    if (blocks_->isNew()) {
-        blocks_->recordAll(job.commands);
-        return;
-    }
-    bool begun = false;
-    for (std::uint32_t i = 0; i < job.plan.views.size(); ++i) {
-        if (!job.of(i).draw) {
-            continue;
-        }
-        if (!begun) {
-            blocks_->begin(job.commands);
-            begun = true;
-        }
-        const View& view = job.plan.views[i];
-        blocks_->record(job.commands, redrawnArea(view, job.of(i).whole), view.place.tile.layer);
-    }
-    if (begun) {
-        blocks_->end(job.commands);
+    if (step_ && step_->passName() != nullptr) {
+        const Timed timed(profiler, job.commands, step_->passName());
+        step_->record(job);
     }
 }
 

@@ -5,36 +5,34 @@
 #pragma once
 
 #include "barriers.h"
-#include "depth_blocks.h"
-#include "fin_maps.h"
 #include "layered_target.h"
 #include "map_recorder.h"
 #include "map_restore.h"
+#include "map_step.h"
 #include "map_storage.h"
-#include "midpoint_maps.h"
-#include "smoothie_maps.h"
 
+#include <memory>
 #include <optional>
 
 namespace gnomon::vulkan {
+
+class Classics;
 
 // An image that grows is copied into the larger one; hosts may copy maps, too.
 inline constexpr VkImageUsageFlags kCopiedUsage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 
 class DepthMaps final : public MapRecorder {
 public:
-    /// Makes DepthBlocks of what it draws, SmoothieMaps or FinMaps, where the options need them.
-    DepthMaps(Device& device, const MapStorage& storage, const ResolvedOptions& options, VkPipelineCache cache);
+    /// `classics`: not null where the options need them.
+    DepthMaps(Device& device, const MapStorage& storage, const ResolvedOptions& options, VkPipelineCache cache,
+              const Classics* classics);
 
     void warmUp(const ResolvedOptions& options) override;
     Prepared prepare(const Plan& plan, std::uint32_t options) override;
     void record(const MapJob& job) override;
     void makeReadable(VkCommandBuffer commands) override;
     [[nodiscard]] const Image& maps() const override { return maps_.image(); }
-    [[nodiscard]] const Image* blocks() const override
-    {
-        return blocks_ ? &blocks_->image() : smoothies_ ? &smoothies_->image() : fins_ ? &fins_->image() : nullptr;
-    }
+    [[nodiscard]] const Image* blocks() const override { return step_ ? &step_->image() : nullptr; }
     [[nodiscard]] FilterCost cost(std::uint32_t) const override { return {}; }
 
 private:
@@ -59,7 +57,6 @@ private:
     [[nodiscard]] bool prepareKept(const Plan& plan, std::uint32_t options);
     void prepareTogether(const Plan& plan, std::uint32_t options);
     void copyOutgrown(VkCommandBuffer commands);
-    void makeBlocks(const MapJob& job);
     void drawKept(const MapJob& job);
     void drawMaps(const MapJob& job);
     void drawMap(const MapJob& job, std::uint32_t index);
@@ -78,17 +75,16 @@ private:
     const MapStorage& storage_;
     float clear_; // value of a texel of a map in a colour format where nothing is drawn, in all channels
     VkPipelineCache cache_;
+    const Classics* classics_;
     LayeredTarget maps_;
     Image depth_; // for maps in a colour format: decides which fragment wins, then is discarded; a layer for each view
     std::vector<Layers> layers_; // views of maps_
     LayeredTarget kept_colours_;
     LayeredTarget kept_depths_; // depths of views whose colours do not hold them (keepsDepth()); none where there is no
                                 // such view
-    std::optional<MapRestorer> restorer_;   // made when first needed
-    std::optional<MidpointMaps> midpoints_; // made when first needed
-    std::optional<DepthBlocks> blocks_;
-    std::optional<SmoothieMaps> smoothies_;
-    std::optional<FinMaps> fins_;
+    std::optional<MapRestorer> restorer_;  // made when first needed
+    std::unique_ptr<ViewPainter> painter_; // made when first needed
+    std::unique_ptr<MapStep> step_;
 };
 
 } // namespace gnomon::vulkan

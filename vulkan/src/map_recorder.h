@@ -18,6 +18,8 @@ struct MapJob {
     std::uint32_t options = 0;      // index into Plan::options: views of others are left alone
     std::span<const ViewWork> work; // by view
     const DrawCasters& draw;
+    const ClassicPass* classic = nullptr; // MapPass::classic of what these options ask for; null: nothing
+    VkBuffer placements = VK_NULL_HANDLE; // GpuFittedView by view of the plan
     Profiler* profiler = nullptr;
 
     [[nodiscard]] ViewWork of(std::uint32_t view) const
@@ -57,7 +59,7 @@ public:
     /// Brings layers that were never drawn into the layout that the mask pass reads them in.
     virtual void makeReadable(VkCommandBuffer commands) = 0;
     [[nodiscard]] virtual const Image& maps() const = 0;
-    /// The maps' second image, in GENERAL: blocks, smoothies or fins; null for filters that need none.
+    /// The maps' second image, in GENERAL: MapStep::image(); null for filters that need none.
     [[nodiscard]] virtual const Image* blocks() const { return nullptr; }
     [[nodiscard]] virtual FilterCost cost(std::uint32_t slot) const = 0;
 };

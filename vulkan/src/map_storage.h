@@ -3,6 +3,7 @@
 #pragma once
 
 #include <gnomon/plan.h>
+#include <gnomon/vulkan/classic_pass.h>
 #include <gnomon/vulkan/shadow_renderer.h>
 
 #include <vulkan/vulkan_core.h>
@@ -22,6 +23,11 @@ struct MapStorage {
     }
 };
 
+/// What a pass asks of its callback beside MapPass::formats.
+[[nodiscard]] inline ClassicFormats classicFormats(const MapPass& pass)
+{
+    return pass.classic != nullptr ? pass.classic->formats : ClassicFormats{};
+}
 /// There is one for every format.
 [[nodiscard]] const MapStorage& mapStorage(MapFormat format);
 /// The channels of a colour attachment that are written for one part of its texels; 0 for no attachment. A format that

@@ -80,8 +80,8 @@ void toReadable(const Device& device, VkCommandBuffer commands, const Image& ima
 
 MaskPassRecorder::MaskPassRecorder(Device& device, const ShadowRendererOptions& options)
     : device_(device), slot_count_(options.frames_in_flight), cache_(options.pipeline_cache),
-      compact_(checkedRule(options.compact)), pipelines_(device, options), slots_(options.frames_in_flight),
-      shape_(options.mask_shape)
+      classics_(options.classics.get()), compact_(checkedRule(options.compact)), pipelines_(device, options),
+      slots_(options.frames_in_flight), shape_(options.mask_shape)
 {
     makeLayouts();
 }
@@ -253,16 +253,6 @@ void placeTints(const Plan& plan, const MapClasses& maps, std::span<shared::GpuV
     }
 }
 
-/// Beside what the lights with maps have drawn.
-void MaskPassRecorder::recordVolumes(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan,
-                                     const MaskInputs& inputs, const Image& target)
-{
-    if (VolumePassRecorder::draws(plan)) {
-        volumes_->record(commands, slot, plan, inputs, {slots_[slot].constants.buffer(), room_.constants_stride},
-                         no_numbers_, target);
-    }
-}
-
 void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index, const Plan& plan,
                               const MaskInputs& inputs, const MapClasses& maps, CascadeFitter& fitter)
 {
@@ -280,7 +270,7 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     }
     const bool takes_turns = alternate_ && std::ranges::any_of(plan.lights, pack::takesTurns);
     const bool converges = converge_ && std::ranges::any_of(plan.lights, pack::joinsFrames);
-    const AlternateInputs seen{inputs.depth, inputs.depth_layout, slot.constants.buffer()};
+    const MaskJob job{commands, slot_index, plan, inputs, slot.constants.buffer(), room_.constants_stride, no_numbers_};
     // From pass to pass: what the maps alone say, what turns make of it, what frames make of that.
     const Image& joined = converges ? converge_->target() : mask_;
     const Image& drawn = takes_turns ? alternate_->target() : joined;
@@ -288,20 +278,22 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     if (std::ranges::any_of(plan.lights, [&](const LightPlan& light) { return pack::halvesMask(plan, light); })) {
         recordHalved(commands, slot_index, plan, inputs, drawn);
     }
-    recordVolumes(commands, slot_index, plan, inputs, drawn);
+    if (hasVolumes(plan)) { // beside what the lights with maps have drawn
+        volumes_->record(job, drawn);
+    }
     toReadable(device_, commands, drawn);
+    const auto join = [&](FrameJoiner& frames, const Image& target) {
+        toAttachment(device_, commands, target);
+        frames.record(job, target);
+        toReadable(device_, commands, target);
+    };
     if (takes_turns) {
-        toAttachment(device_, commands, joined);
-        alternate_->record(commands, slot_index, plan, seen, joined);
-        toReadable(device_, commands, joined);
+        join(*alternate_, joined);
     } else if (alternate_) {
         alternate_->forget();
     }
     if (converges) {
-        toAttachment(device_, commands, mask_);
-        converge_->record(commands, slot_index, plan,
-                          {inputs.depth, inputs.depth_layout, inputs.normal, slot.constants.buffer()}, mask_);
-        toReadable(device_, commands, mask_);
+        join(*converge_, mask_);
     }
     if (now_.inputs != 0) {
         drawn_ = now_; // keeps what it has allocated

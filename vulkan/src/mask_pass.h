@@ -2,15 +2,14 @@
 // The pass that turns maps and the camera's depth into the visibility mask.
 #pragma once
 
-#include "alternate_pass.h"
 #include "cascade_fitter.h"
+#include "classics.h"
 #include "converge_pass.h"
 #include "map_class.h"
 #include "mask_pipelines.h"
 #include "mask_source.h"
 #include "mask_spread.h"
 #include "soften_pass.h"
-#include "volume_pass.h"
 
 #include <gnomon/pack/mask_draws.h>
 #include <gnomon/pack/shading_buffers.h>
@@ -128,8 +127,6 @@ private:
     void recordLayers(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target);
     void recordHalved(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
                       const Image& target);
-    void recordVolumes(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
-                       const Image& target);
     void makePipelines(const Plan& plan, MaskShape shape);
     void warmUpDraws(const ResolvedOptions& options, const WarmUp& what, bool to_converge);
     // In every frame, and not only where a handle is another one: a view that was made after its predecessor was
@@ -146,6 +143,7 @@ private:
     Device& device_;
     std::uint32_t slot_count_;
     VkPipelineCache cache_;
+    const Classics* classics_; // not null where options need them
     pack::CompactMaskRule compact_;
     Image mask_;
     StandIn no_numbers_; // bound where there are no ids of objects, or no blocks
@@ -159,16 +157,17 @@ private:
     MaskSource now_;   // for the frame that is being recorded
     MaskSource drawn_; // the source that mask_ was drawn from
     bool drawn_is_known_ = false;
-    std::uint64_t drawings_ = 0;                // number of drawn masks
-    std::vector<pack::MapImage> map_images_;    // for the frame that is being recorded, by options
-    std::vector<std::uint8_t> tinted_;          // by options: some view has a map of tints
-    pack::LightLists lists_;                    // for a compact mask
-    pack::CompactMask tiles_;                   // for a compact mask
-    std::optional<AlternatePass> alternate_;    // made when a plan first needs it
-    std::optional<ConvergePass> converge_;      // made when a plan first needs it
-    std::optional<SoftenPass> soften_;          // made when a plan first needs it
-    std::optional<MaskSpread> spread_;          // made when a plan first needs it
-    std::optional<VolumePassRecorder> volumes_; // made when a plan first needs it
+    std::uint64_t drawings_ = 0;             // number of drawn masks
+    std::vector<pack::MapImage> map_images_; // for the frame that is being recorded, by options
+    std::vector<std::uint8_t> tinted_;       // by options: some view has a map of tints
+    pack::LightLists lists_;                 // for a compact mask
+    pack::CompactMask tiles_;                // for a compact mask
+    // Each is made when a plan first needs it.
+    std::unique_ptr<FrameJoiner> alternate_;
+    std::optional<ConvergePass> converge_;
+    std::optional<SoftenPass> soften_;
+    std::optional<MaskSpread> spread_;
+    std::unique_ptr<MaskStep> volumes_;
     bool counts_volumes_ = false;
     std::optional<MaskShape> shape_; // shape of the inputs, as far as it is known
 };

@@ -8,32 +8,16 @@
 #include <gnomon_spirv.h>
 
 #include <algorithm>
-#include <array>
 #include <string>
 
 namespace gnomon::vulkan {
 namespace {
 
-/// The module that has the filter, and the one for a single view of any kind, whose numbers come from the vertex
-/// shader; empty where there is none.
-struct MaskCode {
-    std::span<const std::uint32_t> any;
-    std::span<const std::uint32_t> alone;
-};
-
-/// Draws ask in every frame, so names are looked up once.
-const MaskCode& codeOf(Filter module)
+MaskCode codeOf(const Device& device, Filter module)
 {
-    static const std::array<MaskCode, GNOMON_FILTER_COUNT> codes = [] {
-        std::array<MaskCode, GNOMON_FILTER_COUNT> found;
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            std::string name(nameOf(static_cast<Filter>(i)));
-            std::ranges::replace(name, '-', '_');
-            found[i] = {shaderCalled("mask_" + name + ".frag"), shaderCalled("mask_" + name + "_one.frag")};
-        }
-        return found;
-    }();
-    return codes.at(static_cast<std::size_t>(module));
+    std::string name(nameOf(module));
+    std::ranges::replace(name, '-', '_');
+    return {device.shaderCalled("mask_" + name + ".frag"), device.shaderCalled("mask_" + name + "_one.frag")};
 }
 
 } // namespace
@@ -64,6 +48,9 @@ MaskPipelines::MaskPipelines(Device& device, const ShadowRendererOptions& option
     : device_(device), cache_(options.pipeline_cache), shows_rays_(options.shows_rays),
       vertex_(makeShader(device, spirv::mask_numbers_vert))
 {
+    for (std::size_t i = 0; i < codes_.size(); ++i) {
+        codes_[i] = codeOf(device, static_cast<Filter>(i));
+    }
     const VkPhysicalDeviceLimits& limits = device.limits();
     constexpr std::uint32_t kComponents = 128; // 120 of mask_numbers.glsl, and up to 7 of gl_PerVertex
     if (device.software() && limits.maxVertexOutputComponents >= kComponents &&
@@ -77,7 +64,7 @@ VkPipeline MaskPipelines::get(MaskPipelineKey key, VkPipelineLayout layout)
     if (key.told_apart == pack::ToldApart::alone) { // one module for both kinds of view, where there is one
         const bool pairs = key.module == Filter::hard || key.module == Filter::pcf; // mask.frag
         const bool has_module =
-            vertex_one_ && !codeOf(key.module).alone.empty() && (pairs || key.constants.paired == VK_FALSE);
+            vertex_one_ && !codesOf(key).alone.empty() && (pairs || key.constants.paired == VK_FALSE);
         key.told_apart = has_module ? pack::ToldApart::alone : pack::ToldApart::tests;
         key.constants.orthographic = has_module ? VK_FALSE : key.constants.orthographic;
         key.constants.paired = has_module ? key.constants.paired : VK_FALSE;
@@ -97,7 +84,7 @@ Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout
     constants.slices_alone = key.told_apart == pack::ToldApart::slices ? VK_TRUE : VK_FALSE;
     const Specialisation specialisation(constants);
     const bool alone = key.told_apart == pack::ToldApart::alone;
-    const MaskCode& code = codeOf(key.module);
+    const MaskCode& code = codesOf(key);
     const ShaderModule fragment = makeShader(device_, alone ? code.alone : code.any);
     const TwoStages stages = stagesOf(alone ? vertex_one_ : vertex_, fragment, specialisation.info());
     GraphicsState state;

@@ -7,6 +7,7 @@
 #include <gnomon/pack/mask_draws.h>
 #include <gnomon/pack/technique_constants.h>
 
+#include <array>
 #include <vector>
 
 namespace gnomon::vulkan {
@@ -57,6 +58,13 @@ struct MaskPipelineKey {
 /// The key for this part of the mask; `key` is for DrawnAs::whole.
 [[nodiscard]] MaskPipelineKey drawnAs(MaskPipelineKey key, DrawnAs as);
 
+/// The module that has a filter, and the one for a single view of any kind, whose numbers come from the vertex shader;
+/// empty where there is none.
+struct MaskCode {
+    std::span<const std::uint32_t> any;
+    std::span<const std::uint32_t> alone;
+};
+
 class MaskPipelines {
 public:
     MaskPipelines(Device& device, const ShadowRendererOptions& options);
@@ -71,10 +79,15 @@ private:
     };
 
     [[nodiscard]] Pipeline make(const MaskPipelineKey& key, VkPipelineLayout layout);
+    [[nodiscard]] const MaskCode& codesOf(const MaskPipelineKey& key) const
+    {
+        return codes_.at(static_cast<std::size_t>(key.module));
+    }
 
     Device& device_;
     VkPipelineCache cache_;
     bool shows_rays_;
+    std::array<MaskCode, GNOMON_FILTER_COUNT> codes_; // by module: draws ask in every frame
     ShaderModule vertex_;
     ShaderModule vertex_one_; // for a draw with one view: where the device allows that many outputs
     std::vector<Made> made_;

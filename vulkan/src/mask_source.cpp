@@ -15,6 +15,11 @@
 
 namespace gnomon::vulkan {
 
+bool hasVolumes(const Plan& plan)
+{
+    return std::ranges::any_of(plan.lights, [](const LightPlan& light) { return light.volume_count > 0; });
+}
+
 ContentNumber nameOfInputs(const Plan& plan, const MaskInputs& inputs)
 {
     const bool goes_on = std::ranges::any_of(
@@ -73,7 +78,7 @@ void MaskPassRecorder::describe(const Plan& plan, const MaskInputs& inputs, cons
     shape_ =
         MaskShape{inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE, inputs.smooth != VK_NULL_HANDLE};
     const glm::uvec2 size_px(inputs.extent.width, inputs.extent.height);
-    const bool counts = VolumePassRecorder::draws(plan);
+    const bool counts = hasVolumes(plan);
     now_.inputs = nameOfInputs(plan, inputs);
     now_.map_changes = map_changes;
     now_.options = plan.options;

@@ -39,6 +39,8 @@ struct MaskSource {
     bool operator==(const MaskSource&) const = default;
 };
 
+/// Are shadow volumes counted for some light?
+[[nodiscard]] bool hasVolumes(const Plan& plan);
 /// MaskInputs::content, or 0 for a plan whose mask depends on more: on the frames before, or on what the GPU finds.
 [[nodiscard]] ContentNumber nameOfInputs(const Plan& plan, const MaskInputs& inputs);
 

@@ -91,7 +91,7 @@ void MaskPassRecorder::makePipelines(const Plan& plan, MaskShape shape)
 void MaskPassRecorder::makeAlternate()
 {
     if (!alternate_) {
-        alternate_.emplace(device_, slot_count_, cache_);
+        alternate_ = classics_->makeAlternate(device_, slot_count_, cache_);
     }
 }
 
@@ -119,18 +119,17 @@ void MaskPassRecorder::makeSpread()
 void MaskPassRecorder::makeVolumes()
 {
     if (!volumes_) {
-        volumes_.emplace(device_, slot_count_, cache_);
+        volumes_ = classics_->makeVolumes(device_, slot_count_, cache_);
     }
 }
 
 /// By all inputs that there are, where nobody has told yet which come.
 void MaskPassRecorder::prepareVolumes(const Plan& plan)
 {
-    counts_volumes_ = VolumePassRecorder::draws(plan);
+    counts_volumes_ = hasVolumes(plan);
     if (counts_volumes_) {
         makeVolumes();
-        volumes_->prepare(plan, mask_.info().extent, drawnInfo(plan).format,
-                          shape_.value_or(MaskShape{true, true, true}));
+        volumes_->prepare(plan, drawnInfo(plan), shape_.value_or(MaskShape{true, true, true}));
     }
 }
 
@@ -212,9 +211,9 @@ void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what
 {
     if (!options.hasMaps()) {
         makeVolumes();
-        volumes_->warmUp(maskFormat(channelsAlone(options)), 1, what.inputs);
+        volumes_->warmUp({maskFormat(channelsAlone(options)), 1, what.inputs});
         for (std::uint32_t channel = 0; what.several_lights && channel < shared::kLightsPerLayer; ++channel) {
-            volumes_->warmUp(maskFormat(4), 1U << channel, what.inputs);
+            volumes_->warmUp({maskFormat(4), 1U << channel, what.inputs});
         }
         return;
     }
@@ -227,12 +226,12 @@ void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what
     }
     if (options.technique().motion == Motion::step_alternate) {
         makeAlternate();
-        alternate_->warmUp(maskFormat(channelsAlone(options)));
+        alternate_->warmUp({.format = maskFormat(channelsAlone(options))});
         if (what.several_lights) {
-            alternate_->warmUp(maskFormat(4));
+            alternate_->warmUp({.format = maskFormat(4)});
         }
         if (what.several_lights && what.several_options) {
-            alternate_->warmUp(ConvergePass::targetFormat(maskFormat(4)));
+            alternate_->warmUp({.format = ConvergePass::targetFormat(maskFormat(4))});
         }
     }
     if (options.halvesMask() && !isCompact()) {
@@ -247,9 +246,9 @@ void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what
     }
     if (options.technique().soften == Soften::converge) {
         makeConverge();
-        converge_->warmUp(maskFormat(channelsAlone(options)));
+        converge_->warmUp({.format = maskFormat(channelsAlone(options))});
         if (what.several_lights) {
-            converge_->warmUp(maskFormat(4));
+            converge_->warmUp({.format = maskFormat(4)});
         }
     }
 }
@@ -279,14 +278,14 @@ void MaskPassRecorder::prepareHistories(const Plan& plan)
     if (may([](const Technique& technique) { return technique.motion == Motion::step_alternate; }) ||
         std::ranges::any_of(plan.lights, pack::takesTurns)) {
         makeAlternate();
-        alternate_->prepare(mask_.info(), plan.lights.size());
+        alternate_->prepare(plan, mask_.info(), {});
     }
     if (may([](const Technique& technique) { return technique.soften == Soften::converge; }) ||
         std::ranges::any_of(plan.lights, pack::joinsFrames)) {
         makeConverge();
-        converge_->prepare(mask_.info(), plan.lights.size());
+        converge_->prepare(plan, mask_.info(), {});
         if (alternate_) {
-            alternate_->warmUp(converge_->target().info().format);
+            alternate_->warmUp({.format = converge_->target().info().format});
         }
     }
 }

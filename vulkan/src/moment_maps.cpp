@@ -323,11 +323,11 @@ void MomentMaps::recordDepth(const MapJob& job, std::uint32_t index)
     barrier.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
     if (view.contents.kept_layer != kNoIndex) {
         if (job.of(index).draw_kept) {
-            kept_.draw(commands, plan, index, job.draw);
+            kept_.draw(job, index);
         }
         kept_.restore(commands, view, images_.depth);
         beginDepthRendering(device_, commands, tile, images_.depth.layer(0), VK_ATTACHMENT_LOAD_OP_LOAD);
-        drawView(commands, plan, index, CasterShare::moving, 0, job.draw);
+        drawView(job, index, CasterShare::moving, 0);
     } else {
         barrier.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL; // the last view's contents are not needed
         barrier.source_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
@@ -335,7 +335,7 @@ void MomentMaps::recordDepth(const MapJob& job, std::uint32_t index)
         barrier.target_access = kDepthAccess;
         recordBarrier(device_, commands, barrier);
         beginDepthRendering(device_, commands, tile, images_.depth.layer(0), VK_ATTACHMENT_LOAD_OP_CLEAR);
-        drawView(commands, plan, index, CasterShare::all, 0, job.draw);
+        drawView(job, index, CasterShare::all, 0);
     }
     device_.vk.CmdEndRendering(commands);
     barrier.old_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "classics.h"
 #include "renderer_parts.h"
 #include "reuse_count.h"
 #include "timed.h"
@@ -7,6 +8,7 @@
 #include <gnomon/pack/soften_draws.h>
 
 #include <gnomon/shared/gpu_structs.h>
+#include <gnomon/vulkan/classic_pass.h>
 
 #include <algorithm>
 #include <memory>
@@ -29,7 +31,8 @@ ImageRef describe(const Image& image)
 
 struct ShadowRenderer::Impl {
     Impl(const DeviceView& view, const ShadowRendererOptions& options_in)
-        : device(view), options(checked(options_in)), layered(view.features.layered),
+        : device(view, options_in.classics ? options_in.classics->modules() : ShaderList{}),
+          options(checked(options_in)), layered(view.features.layered),
           parts(std::make_unique<RendererParts>(device, options, layered))
     {
     }
@@ -74,6 +77,7 @@ ShadowRenderer::~ShadowRenderer() = default;
 
 void ShadowRenderer::warmUp(const ResolvedOptions& options, const WarmUp& what)
 {
+    checkClassics(options, impl_->options.classics.get());
     impl_->mend();
     impl_->whole([&](RendererParts& parts) {
         if (!options.hasMaps()) {
@@ -101,6 +105,7 @@ void ShadowRenderer::reset()
 bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
 {
     checkPlan("prepare for a plan", plan);
+    checkClassics(plan, impl_->options.classics.get());
     impl_->mend();
     bool changed = false;
     impl_->whole([&](RendererParts& parts) { changed = parts.prepare(plan, screen); });
@@ -113,7 +118,7 @@ void ShadowRenderer::recordBounds(VkCommandBuffer commands, std::uint32_t slot, 
     constexpr const char* kTried = "record shadow bounds";
     impl_->parts->checkUse(kTried, commands, slot, plan);
     if (CascadeFitter::fits(plan)) {
-        impl_->parts->checkInputs(kTried, plan, inputs);
+        RendererParts::checkInputs(kTried, inputs);
     }
     impl_->device.enter(slot, Retirement::Work::bounds);
     if (pack::has(impl_->parts->passes, pack::FramePassKind::bounds)) {
@@ -135,17 +140,18 @@ void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, co
     impl_->whole([&](RendererParts& parts) {
         const std::span<const ViewWork> work = parts.notes.workFor(plan);
         parts.reuse[slot] = countReuse(plan, work);
-        const DrawCasters placed = [&](const MapPass& pass) {
-            MapPass with = pass;
-            if (pass.view->projection.gpu_cascade != kNoIndex) {
-                with.placement = parts.fitter.views();
-                with.placement_offset = pass.view_index * kPlacementStride;
-            }
-            draw(with);
-        };
         for (const pack::FramePass& pass : parts.passes) {
             if (pass.kind == pack::FramePassKind::maps) {
-                const MapJob job{commands, slot, plan, pass.options, work, placed, profiler};
+                const ClassicPass classic{.formats = classicFormats((*plan.options)[pass.options])};
+                const MapJob job{.commands = commands,
+                                 .slot = slot,
+                                 .plan = plan,
+                                 .options = pass.options,
+                                 .work = work,
+                                 .draw = draw,
+                                 .classic = classic.formats != ClassicFormats{} ? &classic : nullptr,
+                                 .placements = parts.fitter.views(),
+                                 .profiler = profiler};
                 parts.classes[pass.options]->recorder->record(job);
                 if (parts.classes[pass.options]->tints.record(job)) {
                     parts.notes.change();
@@ -162,7 +168,7 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
     constexpr const char* kTried = "record the mask";
     impl_->parts->checkUse(kTried, commands, slot, plan);
     impl_->parts->checkFitted(kTried, plan);
-    impl_->parts->checkInputs(kTried, plan, inputs);
+    RendererParts::checkInputs(kTried, inputs);
     if (inputs.object_id == VK_NULL_HANDLE &&
         std::ranges::any_of(plan.lights, [](const LightPlan& light) { return light.first_object_id != kNoIndex; })) {
         refuseUse(kTried, "filters id and depth-id tell objects apart, and MaskInputs::object_id is null",

@@ -14,11 +14,6 @@ void RendererParts::check(const ResolvedOptions& wanted) const
         throw Error("draw cascades in one pass", "the device was made without shaderOutputLayer",
                     "draw each in a pass of its own");
     }
-    if (wanted.hasFins() && !options.draws_fins) {
-        throw Error(
-            "draw fins of smoothies", "the host has nothing that draws them (ShadowRendererOptions::draws_fins)",
-            "give the edges of casters to a FinDrawer, or choose soften smoothies, which finds them in the map");
-    }
 }
 
 void RendererParts::checkUse(const char* tried, VkCommandBuffer commands, std::uint32_t slot, const Plan& plan) const
@@ -43,14 +38,10 @@ void RendererParts::checkPrepared(const char* tried, const Plan& plan) const
     }
 }
 
-void RendererParts::checkInputs(const char* tried, const Plan& plan, const MaskInputs& inputs) const
+void RendererParts::checkInputs(const char* tried, const MaskInputs& inputs)
 {
     if (inputs.depth == VK_NULL_HANDLE) {
         refuseUse(tried, "MaskInputs::depth is null", "hand in the camera's depth");
-    }
-    if (VolumePassRecorder::draws(plan) && !inputs.volumes) {
-        refuseUse(tried, "the plan has lights with filter volumes, and MaskInputs::volumes is null",
-                  "hand in a DrawVolumes");
     }
     if (inputs.extent.width == 0 || inputs.extent.height == 0) {
         refuseUse(tried, "MaskInputs::extent is 0", "say how large the camera's depth is");
@@ -68,7 +59,8 @@ void RendererParts::checkFitted(const char* tried, const Plan& plan) const
 std::unique_ptr<MapClass> RendererParts::makeClass(const ResolvedOptions& wanted)
 {
     check(wanted);
-    return std::make_unique<MapClass>(device, wanted, options.frames_in_flight, options.pipeline_cache);
+    return std::make_unique<MapClass>(device, wanted, options.frames_in_flight, options.pipeline_cache,
+                                      options.classics.get());
 }
 
 std::unique_ptr<MapClass> RendererParts::takeClass(const ResolvedOptions& wanted)

@@ -43,7 +43,7 @@ struct RendererParts {
     /// Each throws Error, before anything is recorded.
     void checkUse(const char* tried, VkCommandBuffer commands, std::uint32_t slot, const Plan& plan) const;
     void checkPrepared(const char* tried, const Plan& plan) const;
-    void checkInputs(const char* tried, const Plan& plan, const MaskInputs& inputs) const;
+    static void checkInputs(const char* tried, const MaskInputs& inputs);
     void checkFitted(const char* tried, const Plan& plan) const;
 
     Device& device;

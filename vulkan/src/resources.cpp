@@ -2,13 +2,10 @@
 // Images, buffers and shader modules.
 #include "device.h"
 
-#include "gnomon_spirv.h"
-
 #include <gnomon/error.h>
 
 #include <algorithm>
 #include <cassert>
-#include <iterator>
 
 namespace gnomon::vulkan {
 namespace {
@@ -142,36 +139,37 @@ DeviceBuffer::DeviceBuffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlag
 {
 }
 
-namespace {
-
-/// The host's replacement of a module, or the module.
-std::span<const std::uint32_t> hooked(const ShaderHook& hook, std::span<const std::uint32_t> spirv)
+std::span<const std::uint32_t> Device::hooked(std::span<const std::uint32_t> spirv) const
 {
-    const auto* const found =
-        std::find_if(std::begin(spirv::all_of_gnomon_spirv), std::end(spirv::all_of_gnomon_spirv),
-                     [&spirv](const std::span<const std::uint32_t>* one) { return one->data() == spirv.data(); });
-    assert(found != std::end(spirv::all_of_gnomon_spirv));
-    const std::span<const std::uint32_t> other =
-        hook.words(hook.user, spirv::names_of_gnomon_spirv[found - std::begin(spirv::all_of_gnomon_spirv)]);
-    return other.empty() ? spirv : other;
+    if (view_.shaders.words == nullptr) {
+        return spirv;
+    }
+    for (const ShaderList& list : shaders_) {
+        for (std::size_t i = 0; i < list.modules.size(); ++i) {
+            if (list.modules[i]->data() == spirv.data()) {
+                const std::span<const std::uint32_t> other = view_.shaders.words(view_.shaders.user, list.names[i]);
+                return other.empty() ? spirv : other;
+            }
+        }
+    }
+    assert(false && "a module that is in no list");
+    return spirv;
 }
 
-} // namespace
-
-std::span<const std::uint32_t> shaderCalled(std::string_view name)
+std::span<const std::uint32_t> Device::shaderCalled(std::string_view name) const
 {
-    const auto* const found =
-        std::find(std::begin(spirv::names_of_gnomon_spirv), std::end(spirv::names_of_gnomon_spirv), name);
-    return found == std::end(spirv::names_of_gnomon_spirv)
-               ? std::span<const std::uint32_t>{}
-               : *spirv::all_of_gnomon_spirv[found - std::begin(spirv::names_of_gnomon_spirv)];
+    for (const ShaderList& list : shaders_) {
+        const auto found = std::ranges::find(list.names, name);
+        if (found != list.names.end()) {
+            return *list.modules[static_cast<std::size_t>(found - list.names.begin())];
+        }
+    }
+    return {};
 }
 
 ShaderModule makeShader(Device& device, std::span<const std::uint32_t> spirv)
 {
-    if (device.shaderHook().words != nullptr) {
-        spirv = hooked(device.shaderHook(), spirv);
-    }
+    spirv = device.hooked(spirv);
     const VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, nullptr, 0, spirv.size_bytes(),
                                           spirv.data()};
     VkShaderModule module = VK_NULL_HANDLE;

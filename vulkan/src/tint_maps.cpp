@@ -6,6 +6,7 @@
 
 #include <gnomon/error.h>
 #include <gnomon/plan_views.h>
+#include <gnomon/vulkan/classic_pass.h>
 
 #include <algorithm>
 #include <utility>
@@ -126,10 +127,11 @@ void TintMaps::draw(const MapJob& job, std::uint32_t index)
         tints_.toAttachment(before, layer);
     }
     beginViewLabel(device_, job.commands, job.plan, index);
-    MapPass pass = passOf(job.commands, job.plan, index, 0);
+    const ClassicPass bent{.formats = {.paraboloid = true}};
+    MapPass pass = passOf(job, index, 0);
     pass.casters = castersOf(job.plan, view, CasterShare::all);
     pass.formats = blockerFormats(view.projection.orthographic);
-    pass.classic.formats = {.paraboloid = view.projection.paraboloid};
+    pass.classic = view.projection.paraboloid ? &bent : nullptr;
     beginRendering(job.commands, view.place.tile, VK_NULL_HANDLE);
     job.draw(pass);
     device_.vk.CmdEndRendering(job.commands);

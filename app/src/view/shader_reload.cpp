@@ -79,7 +79,8 @@ std::optional<ShaderBuild> findShaderBuild()
     const std::string cmake = cached(cache, "CMAKE_COMMAND");
     ShaderBuild build;
     build.sources = {home / "shaders", home / "host" / "shaders"};
-    build.modules = {folder / "shaders" / "gnomon_spirv", folder / "host" / "gnomon_host_spirv"};
+    build.modules = {folder / "shaders" / "gnomon_spirv", folder / "shaders" / "gnomon_classic_spirv",
+                     folder / "host" / "gnomon_host_spirv"};
     const auto is_there = [&fault](const fs::path& one) {
         return fs::is_directory(one, fault);
     };
@@ -87,8 +88,13 @@ std::optional<ShaderBuild> findShaderBuild()
         !std::all_of(build.modules.begin(), build.modules.end(), is_there)) {
         return std::nullopt;
     }
-    build.command = {
-        cmake, "--build", folder.string(), "--target", "gnomon_spirv_modules", "gnomon_host_spirv_modules"};
+    build.command = {cmake,
+                     "--build",
+                     folder.string(),
+                     "--target",
+                     "gnomon_spirv_modules",
+                     "gnomon_classic_spirv_modules",
+                     "gnomon_host_spirv_modules"};
     build.made = fs::last_write_time(program, fault);
     return fault ? std::nullopt : std::optional(build);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Demands of a classic technique's pass on the callback that draws casters. CasterDrawer meets all of them. A callback
-// of the host's own needs this header for options with CasterFaces, CasterCull, Partition::paraboloid, or the filters
-// id, depth-id and smoothies; without them every member has its default.
+// Further demands of a pass on the callback that draws casters. CasterDrawer meets all of them. A callback of the
+// host's own needs this header for options with CasterFaces or CasterCull, and with classic techniques
+// (<gnomon/vulkan/classics.h>) for Partition::paraboloid and the filters id and depth-id.
 #pragma once
 
 #include <gnomon/choices.h>
@@ -30,21 +30,15 @@ struct ClassicFormats {
     bool ids = false;
     /// IdOf::face, with `ids`: the id is gnomonCasterPieceId() of the triangle's piece.
     bool pieces = false;
-    /// Filter smoothies, once its map is drawn: draw fins along the casters' silhouettes
-    /// (gnomon/shared/smoothie_fins.h), and not the casters, into an image beside the map, R32_UINT, packed as in
-    /// smoothies.h. gl_FragDepth = finOrder(); depth is tested, LESS_OR_EQUAL, and written. Casters without fins keep
-    /// the shadow of the map.
-    bool fins = false;
 
     bool operator==(const ClassicFormats&) const = default;
 };
 
-/// The classic part of a MapPass.
+/// MapPass::classic.
 struct ClassicPass {
     ClassicFormats formats; // classicFormats() of the light's options
     /// With behind_first: a set with one COMBINED_IMAGE_SAMPLER at binding 0, FRAGMENT stage, whose texel at
-    /// gl_FragCoord.xy is the depth of the first surface. With fins: such a set with the maps, a 2D array whose layer
-    /// is in ViewPlace::tile.
+    /// gl_FragCoord.xy is the depth of the first surface.
     VkDescriptorSet first_surface = VK_NULL_HANDLE;
     float first_quantum = 0.0F; // largest error of first_surface, in depths of the map
 };

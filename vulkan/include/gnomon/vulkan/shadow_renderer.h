@@ -9,7 +9,6 @@
 #include <gnomon/pack/compact_mask.h>
 #include <gnomon/pack/depth_layers.h>
 #include <gnomon/plan.h>
-#include <gnomon/vulkan/classic_pass.h>
 #include <gnomon/vulkan/device_view.h>
 #include <gnomon/vulkan/profiler.h>
 
@@ -27,6 +26,9 @@ namespace gnomon::shared {
 struct GpuView;
 }
 namespace gnomon::vulkan {
+
+class Classics;     // <gnomon/vulkan/classics.h>
+struct ClassicPass; // <gnomon/vulkan/classic_pass.h>
 
 /// The images that MaskInputs has besides the camera's depth.
 struct MaskShape {
@@ -61,30 +63,10 @@ struct ShadowRendererOptions {
     /// (lib/raymarch.glsl), and a value between them where a pixel reads two cascades. Pixels that face away from the
     /// light are 0 as usual, and pixels in no map 1.
     bool shows_rays = false;
-    /// The callback that draws casters also draws fins (ClassicFormats::fins; FinDrawer is such a callback). False:
-    /// prepare() refuses lights with filter smoothies.
-    bool draws_fins = false;
+    /// Classic techniques, by makeClassics() of the library gnomon::vulkan_classics. Null: prepare() refuses plans with
+    /// options that name one (<gnomon/vulkan/classics.h> lists them).
+    std::shared_ptr<const Classics> classics;
 };
-
-/// One light's shadow volumes to draw (pack::VolumeDraw), given to the host's callback. Rendering has begun, and the
-/// camera's depth is in the depth buffer; viewport, scissor and, with FeatureUses::depth_bounds, depth bounds are set.
-/// The callback binds its pipelines and draws; it must not end rendering. Its pipelines clamp depth, test it and do not
-/// write it: GREATER with `reversed_z`, else LESS. Where the test fails they add 1 to the stencil for faces that turn
-/// away from the eye and take 1 away for those that turn to it, wrapping. They write no colour.
-struct VolumePass {
-    VkCommandBuffer commands = VK_NULL_HANDLE;             // to record into
-    VkFormat colour = VK_FORMAT_UNDEFINED;                 // format of the one colour attachment
-    VkFormat depth_stencil = VK_FORMAT_D32_SFLOAT_S8_UINT; // format of that attachment; or D24_UNORM_S8_UINT
-    bool reversed_z = true;                                // the camera's depth is 1 at the near plane
-    const Plan* plan = nullptr;                            // never null
-    std::uint32_t light = 0;                               // index into Plan::lights
-    std::span<const std::uint32_t> casters;                // object indices: all of them must be drawn
-    glm::mat4 clip_from_eye{1.0F};                         // the camera's, for points relative to the eye
-    glm::dvec3 eye_ws{0.0};                                // metres, world space
-    glm::vec4 place{0.0F}; // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position
-};
-/// Draws one light's volumes.
-using DrawVolumes = std::function<void(const VolumePass&)>;
 
 /// The host's inputs of the mask. Images have the usage SAMPLED, are in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
 /// (depth: also DEPTH_READ_ONLY_OPTIMAL, by `depth_layout`) and their writes are made visible to FRAGMENT_SHADER reads
@@ -119,8 +101,6 @@ struct MaskInputs {
     /// mask as it is. So mask() has to stay as it was left, in content and layout, and a recorded frame has to be
     /// submitted, or reset() called.
     ContentNumber content = 0;
-    /// Draws shadow volumes (VolumeDrawer is such a callback). Needed where the plan has lights with filter volumes.
-    DrawVolumes volumes;
 };
 
 /// The formats that the host's caster pipelines must be made for.
@@ -146,10 +126,11 @@ struct MapPassFormats {
 struct MapPass {
     VkCommandBuffer commands = VK_NULL_HANDLE; // to record into
     MapPassFormats formats;                    // mapFormats() of the light's options and ViewProjection::orthographic
-    ClassicPass classic;                       // used where options ask for a technique that it names
-    const Plan* plan = nullptr;                // never null
-    const View* view = nullptr;                // the first one that is drawn; never null
-    std::uint32_t view_index = 0;              // its place in Plan::views
+    /// Null, unless options have CasterFaces, CasterCull or a classic technique that asks for more.
+    const ClassicPass* classic = nullptr;
+    const Plan* plan = nullptr;   // never null
+    const View* view = nullptr;   // the first one that is drawn; never null
+    std::uint32_t view_index = 0; // its place in Plan::views
     /// The channels of the colour attachment that the pipeline must write; 0 for depth-only maps. All channels unless
     /// two maps share one target (ResolvedOptions::paired_maps): then both halves of a texel get the same value and
     /// `colour_mask` keeps one of them.
@@ -184,7 +165,7 @@ inline constexpr VkDeviceSize kPlacementStride = 48; // bytes
 using DrawCasters = std::function<void(const MapPass&)>;
 
 /// The formats that views with these options are drawn in. `orthographic`: ViewProjection::orthographic.
-/// classicFormats() has the rest.
+/// classicFormats() has what ClassicPass adds.
 [[nodiscard]] GNOMON_API MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic);
 
 /// An image of the renderer's. Holds until the next prepare() that says it made others.
@@ -252,7 +233,7 @@ struct WarmUp {
 ///   views asked to have tints placed that are fewer than the plan's                 Error
 ///   a plan that a compact mask cannot hold, a CompactMaskRule that is wrong         Error
 ///   what an OptionalPart that the device lacks is for                               Error
-///   filter smoothies without ShadowRendererOptions::draws_fins                      Error
+///   a classic technique without ShadowRendererOptions::classics                     Error
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   a null command buffer, depth, buffer of views or callback                       Error
 ///   recordMask() of lights with filter id or depth-id without MaskInputs::object_id  Error

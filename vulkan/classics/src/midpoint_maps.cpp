@@ -7,6 +7,9 @@
 #include "pipelines.h"
 #include "samplers.h"
 
+#include <gnomon/vulkan/classic_pass.h>
+
+#include <gnomon_classic_spirv.h>
 #include <gnomon_spirv.h>
 
 #include <algorithm>
@@ -93,24 +96,26 @@ void MidpointMaps::makeReadable(VkCommandBuffer commands, const Image& surface) 
     recordBarrier(device_, commands, barrier);
 }
 
-void MidpointMaps::drawSurfaces(const MapJob& job, std::uint32_t view)
+void MidpointMaps::drawCasters(const MapJob& job, std::uint32_t view)
 {
     const VkCommandBuffer commands = job.commands;
     const Tile& tile = job.plan.views[view].place.tile;
-    MapPass pass = passOf(commands, job.plan, view, 0);
+    ClassicPass behind = job.classic != nullptr ? *job.classic : ClassicPass{};
+    behind.formats.behind_first = true;
+    behind.first_surface = first_;
+    behind.first_quantum = depthRounding(storage_.depth);
+    MapPass pass = passOf(job, view, 0);
     pass.casters = castersOf(job.plan, job.plan.views[view], CasterShare::all);
     for (const Image& surface : surfaces_) {
         beginSurface(commands, surface, tile);
         job.draw(pass);
         device_.vk.CmdEndRendering(commands);
         makeReadable(commands, surface);
-        pass.classic.formats.behind_first = true;
-        pass.classic.first_surface = first_;
-        pass.classic.first_quantum = depthRounding(storage_.depth);
+        pass.classic = &behind;
     }
 }
 
-void MidpointMaps::drawMidpoint(VkCommandBuffer commands) const
+void MidpointMaps::drawMap(VkCommandBuffer commands) const
 {
     device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
     device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &both_, 0,

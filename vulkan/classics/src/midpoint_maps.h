@@ -6,24 +6,22 @@
 #pragma once
 
 #include "descriptors.h"
-#include "map_recorder.h"
+#include "map_step.h"
 #include "map_storage.h"
 
 #include <array>
 
 namespace gnomon::vulkan {
 
-class MidpointMaps {
+class MidpointMaps final : public ViewPainter {
 public:
     /// Precondition: the storage is depth alone.
     MidpointMaps(Device& device, const MapStorage& storage, VkPipelineCache cache);
 
-    /// Makes room for the two surfaces of maps on a page of this size. Images that are too small are retired.
-    void cover(VkExtent2D page);
-    /// Draws both surfaces of all casters of a view, which the callback sees as two passes.
-    void drawSurfaces(const MapJob& job, std::uint32_t view);
-    /// Rendering to the map has begun, viewport and scissor are set: draws the midpoints.
-    void drawMidpoint(VkCommandBuffer commands) const;
+    void cover(VkExtent2D page) override;
+    /// Draws both surfaces, which the callback sees as two passes.
+    void drawCasters(const MapJob& job, std::uint32_t view) override;
+    void drawMap(VkCommandBuffer commands) const override;
 
 private:
     void makeReadable(VkCommandBuffer commands, const Image& surface) const;

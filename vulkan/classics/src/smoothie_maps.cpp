@@ -6,7 +6,7 @@
 
 #include <gnomon/pack/filter_rule.h>
 
-#include <gnomon_spirv.h>
+#include <gnomon_classic_spirv.h>
 
 #include <array>
 

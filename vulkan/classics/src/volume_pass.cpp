@@ -15,6 +15,7 @@
 #include <gnomon/plan_views.h>
 
 #include <gnomon/shared/gpu_structs.h>
+#include <gnomon_classic_spirv.h>
 #include <gnomon_spirv.h>
 
 #include <algorithm>
@@ -103,17 +104,14 @@ void awaitBefore(const Device& device, VkCommandBuffer commands, const Image& de
 
 } // namespace
 
-VolumePassRecorder::VolumePassRecorder(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache)
-    : device_(device), depth_stencil_(stencilFormat(device.view())), slot_count_(frames_in_flight), cache_(cache),
-      nearest_(makeSampler(device, VK_FILTER_NEAREST)), sets_(device, kCountTypes, VK_SHADER_STAGE_FRAGMENT_BIT),
+VolumePassRecorder::VolumePassRecorder(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache,
+                                       const DrawVolumes& draw)
+    : device_(device), draw_(draw), depth_stencil_(stencilFormat(device.view())), slot_count_(frames_in_flight),
+      cache_(cache), nearest_(makeSampler(device, VK_FILTER_NEAREST)),
+      sets_(device, kCountTypes, VK_SHADER_STAGE_FRAGMENT_BIT),
       layout_(makePipelineLayout(device, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(glm::vec4))),
       triangle_(makeShader(device, spirv::mask_vert))
 {
-}
-
-bool VolumePassRecorder::draws(const Plan& plan)
-{
-    return std::ranges::any_of(plan.lights, [](const LightPlan& light) { return light.volume_count > 0; });
 }
 
 void VolumePassRecorder::makeSets(std::uint32_t options)
@@ -126,8 +124,9 @@ void VolumePassRecorder::makeSets(std::uint32_t options)
     }
 }
 
-void VolumePassRecorder::prepare(const Plan& plan, VkExtent2D screen, VkFormat mask_format, const MaskShape& shape)
+void VolumePassRecorder::prepare(const Plan& plan, const ImageInfo& mask, const MaskShape& shape)
 {
+    const VkExtent2D screen = mask.extent;
     requirePart(device_, "count shadow volumes", &FeatureUses::depth_clamp);
     draws_.reserve(plan.lights.size());
     if (const auto options = static_cast<std::uint32_t>(plan.options->size()); options > options_) {
@@ -141,16 +140,16 @@ void VolumePassRecorder::prepare(const Plan& plan, VkExtent2D screen, VkFormat m
     }
     for (const LightPlan& light : plan.lights) {
         if (light.volume_count > 0) {
-            warmUp(mask_format, maskChannelsOf(light), shape);
+            warmUp({mask.format, maskChannelsOf(light), shape});
         }
     }
 }
 
-void VolumePassRecorder::warmUp(VkFormat mask_format, std::uint32_t channels, const MaskShape& shape)
+void VolumePassRecorder::warmUp(const MaskKind& mask)
 {
-    (void)copyPipeline(mask_format, shape.smooth);
+    (void)copyPipeline(mask.format, mask.shape.smooth);
     for (const bool inside : {false, true}) {
-        (void)maskPipeline({mask_format, channels, shape, inside});
+        (void)maskPipeline({mask.format, mask.channels, mask.shape, inside});
     }
 }
 
@@ -223,9 +222,9 @@ Pipeline VolumePassRecorder::makeCopyPipeline(VkFormat format, bool smooth)
     return makeGraphicsPipeline(device_, state);
 }
 
-void VolumePassRecorder::writeSets(std::uint32_t slot, const MaskInputs& inputs, const ConstantsRef& constants,
-                                   const StandIn& no_ids)
+void VolumePassRecorder::writeSets(const MaskJob& job)
 {
+    const MaskInputs& inputs = job.inputs;
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const VkSampler sampler = nearest_.get();
     // Every descriptor is written [drivers: unwritten].
@@ -235,13 +234,14 @@ void VolumePassRecorder::writeSets(std::uint32_t slot, const MaskInputs& inputs,
     };
     for (std::uint32_t options = 0; options < options_; ++options) {
         const std::array<DescriptorSets::Write, kCountBindings> writes{
-            DescriptorSets::buffer(kCountConstants, constants.buffer, sizeof(shared::GpuConstants),
-                                   options * constants.stride),
+            DescriptorSets::buffer(kCountConstants, job.constants, sizeof(shared::GpuConstants),
+                                   options * job.constants_stride),
             DescriptorSets::image(kCountDepth, sampler, inputs.depth, inputs.depth_layout),
             orDepth(kCountNormal, inputs.normal), orDepth(kCountSmooth, inputs.smooth),
             DescriptorSets::image(kCountId, sampler,
-                                  inputs.object_id != VK_NULL_HANDLE ? inputs.object_id : no_ids.layer(), kRead)};
-        sets_.write(setOf(slot, options), writes);
+                                  inputs.object_id != VK_NULL_HANDLE ? inputs.object_id : job.no_numbers.layer(),
+                                  kRead)};
+        sets_.write(setOf(job.slot, options), writes);
     }
 }
 
@@ -273,7 +273,7 @@ void VolumePassRecorder::beginLayer(VkCommandBuffer commands, const Image& targe
 }
 
 /// Where some light of the layer counts.
-void VolumePassRecorder::copyDepth(const Job& job, std::uint32_t layer)
+void VolumePassRecorder::copyDepth(const MaskJob& job, VkFormat format, std::uint32_t layer)
 {
     pack::ScreenBounds all{~0U, ~0U, 0, 0};
     for (const pack::VolumeDraw& draw : draws_) {
@@ -286,13 +286,13 @@ void VolumePassRecorder::copyDepth(const Job& job, std::uint32_t layer)
     const VkDescriptorSet set = setOf(job.slot, 0);
     device_.vk.CmdSetScissor(job.commands, 0, 1, &scissor);
     device_.vk.CmdBindPipeline(job.commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                               copyPipeline(job.format, job.inputs.smooth != VK_NULL_HANDLE));
+                               copyPipeline(format, job.inputs.smooth != VK_NULL_HANDLE));
     device_.vk.CmdBindDescriptorSets(job.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set, 0,
                                      nullptr);
     device_.vk.CmdDraw(job.commands, 3, 1, 0, 0);
 }
 
-void VolumePassRecorder::countLight(const Job& job, const pack::VolumeDraw& draw)
+void VolumePassRecorder::countLight(const MaskJob& job, VkFormat format, const pack::VolumeDraw& draw)
 {
     const LightPlan& light = job.plan.lights[draw.light];
     const VkRect2D scissor = rectOf(draw.pixels);
@@ -306,7 +306,7 @@ void VolumePassRecorder::countLight(const Job& job, const pack::VolumeDraw& draw
     }
     VolumePass pass;
     pass.commands = job.commands;
-    pass.colour = job.format;
+    pass.colour = format;
     pass.depth_stencil = depth_stencil_;
     pass.reversed_z = job.plan.made_for.camera.reversed_z;
     pass.plan = &job.plan;
@@ -315,15 +315,15 @@ void VolumePassRecorder::countLight(const Job& job, const pack::VolumeDraw& draw
     pass.clip_from_eye = clipFromEye(job.plan.made_for.camera);
     pass.eye_ws = job.plan.made_for.camera.eye_ws;
     pass.place = draw.place;
-    job.inputs.volumes(pass);
+    draw_(pass);
 }
 
-void VolumePassRecorder::drawLight(const Job& job, const pack::VolumeDraw& draw)
+void VolumePassRecorder::drawLight(const MaskJob& job, VkFormat format, const pack::VolumeDraw& draw)
 {
     const VkDescriptorSet set = setOf(job.slot, job.plan.lights[draw.light].options);
     for (const bool inside : {false, true}) {
         device_.vk.CmdBindPipeline(job.commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                   maskPipeline({job.format, draw.channels, shapeOf(job.inputs), inside}));
+                                   maskPipeline({format, draw.channels, shapeOf(job.inputs), inside}));
         device_.vk.CmdBindDescriptorSets(job.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set, 0,
                                          nullptr);
         device_.vk.CmdPushConstants(job.commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof draw.place,
@@ -332,31 +332,30 @@ void VolumePassRecorder::drawLight(const Job& job, const pack::VolumeDraw& draw)
     }
 }
 
-void VolumePassRecorder::record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan,
-                                const MaskInputs& inputs, const ConstantsRef& constants, const StandIn& no_ids,
-                                const Image& target)
+void VolumePassRecorder::record(const MaskJob& job, const Image& mask)
 {
-    const VkExtent2D extent = target.info().extent;
-    pack::listVolumeDraws(plan, {extent.width, extent.height}, draws_);
+    const VkCommandBuffer commands = job.commands;
+    const VkFormat format = mask.info().format;
+    const VkExtent2D extent = mask.info().extent;
+    pack::listVolumeDraws(job.plan, {extent.width, extent.height}, draws_);
     if (draws_.empty()) {
         return;
     }
-    writeSets(slot, inputs, constants, no_ids);
+    writeSets(job);
     device_.beginLabel(commands, "shadow volumes");
-    const Job job{commands, slot, plan, inputs, target.info().format};
-    for (std::uint32_t layer = 0; layer < target.info().layers; ++layer) {
+    for (std::uint32_t layer = 0; layer < mask.info().layers; ++layer) {
         const auto is_here = [&](const pack::VolumeDraw& draw) {
             return draw.layer == layer;
         };
         if (std::ranges::none_of(draws_, is_here)) {
             continue;
         }
-        beginLayer(commands, target, layer);
-        copyDepth(job, layer);
+        beginLayer(commands, mask, layer);
+        copyDepth(job, format, layer);
         for (const pack::VolumeDraw& draw : draws_) {
             if (is_here(draw)) {
-                countLight(job, draw);
-                drawLight(job, draw);
+                countLight(job, format, draw);
+                drawLight(job, format, draw);
             }
         }
         device_.vk.CmdEndRendering(commands);

@@ -5,7 +5,9 @@
 
 #include "barriers.h"
 #include "descriptors.h"
-#include "map_recorder.h"
+#include "map_step.h"
+
+#include <gnomon/vulkan/fin_drawer.h>
 
 namespace gnomon::vulkan {
 
@@ -13,18 +15,16 @@ inline constexpr VkFormat kFinFormat = VK_FORMAT_R32_UINT;
 inline constexpr VkFormat kFinOrderFormat = VK_FORMAT_D32_SFLOAT; // format of the order that decides which fin a texel
                                                                   // keeps
 
-class FinMaps {
+class FinMaps final : public MapStep {
 public:
-    /// Precondition: options.hasFins().
-    FinMaps(Device& device, const ResolvedOptions& options);
+    /// Precondition: options.hasFins(). `draw` has to live longer.
+    FinMaps(Device& device, const ResolvedOptions& options, const DrawFins& draw);
 
-    /// For these maps, an image that has just been made; all maps are to be drawn again.
-    void setMaps(const Image& maps);
-    /// Those of the maps that the job has drawn. The maps are readable.
-    void record(const MapJob& job);
-
-    /// In GENERAL once recorded.
-    [[nodiscard]] const Image& image() const { return image_; }
+    [[nodiscard]] const char* passName() const override { return "shadow filter"; }
+    [[nodiscard]] bool needsDrawnMaps() const override { return true; } // its image is not copied
+    void setMaps(const Image& maps) override;
+    void record(const MapJob& job) override;
+    [[nodiscard]] const Image& image() const override { return image_; }
 
 private:
     void begin(VkCommandBuffer commands);
@@ -32,6 +32,7 @@ private:
     void recordMap(const MapJob& job, std::uint32_t view) const;
 
     Device& device_;
+    const DrawFins& draw_;
     std::int32_t reach_;
     float quantum_;
     Sampler nearest_;

@@ -6,33 +6,22 @@
 
 #include "descriptors.h"
 #include "mask_history.h"
+#include "mask_step.h"
 
 #include <array>
 
 namespace gnomon::vulkan {
 
-/// The inputs of the pass besides its own images.
-struct AlternateInputs {
-    VkImageView depth = VK_NULL_HANDLE;
-    VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VkBuffer constants = VK_NULL_HANDLE; // begins with a GpuConstants
-};
-
-class AlternatePass {
+class AlternatePass final : public FrameJoiner {
 public:
     AlternatePass(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache);
 
-    /// Makes the pipeline for masks of this format, if it is not there.
-    void warmUp(VkFormat mask_format);
-    /// Makes images like the mask if those that are there are not; then nothing of the frame before is known.
-    void prepare(const ImageInfo& mask, std::size_t lights);
-    /// The next frame has no frame before it.
-    void forget();
-    /// Where the visibility by this frame's maps alone is to be drawn; afterwards it is readable by fragment shaders.
-    [[nodiscard]] const Image& target() const { return history_.now().visibility; }
-    /// All layers. The mask is in COLOR_ATTACHMENT_OPTIMAL.
-    void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const AlternateInputs& inputs,
-                const Image& mask);
+    void warmUp(const MaskKind& mask) override;
+    /// With new images nothing of the frame before is known.
+    void prepare(const Plan& plan, const ImageInfo& mask, const MaskShape& shape) override;
+    void forget() override;
+    [[nodiscard]] const Image& target() const override { return history_.now().visibility; }
+    void record(const MaskJob& job, const Image& mask) override;
 
 private:
     struct LightHistory {
@@ -40,7 +29,7 @@ private:
         MaskPlace place;
         glm::dvec3 direction_ws{0.0}; // direction of the maps that it was seen by
     };
-    void writeSet(VkDescriptorSet set, const AlternateInputs& inputs);
+    void writeSet(VkDescriptorSet set, const MaskJob& job);
     [[nodiscard]] Pipeline makePipeline(VkFormat mask_format);
     void recordLayer(VkCommandBuffer commands, const Plan& plan, std::uint32_t layer, const Image& mask);
     [[nodiscard]] glm::vec4 weightsOfBefore(const Plan& plan, std::uint32_t layer) const;

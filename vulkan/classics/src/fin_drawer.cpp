@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gnomon/vulkan/fin_drawer.h>
 
+#include "classic_modules.h"
 #include "descriptors.h"
 #include "fin_maps.h"
 #include "pipelines.h"
@@ -8,10 +9,8 @@
 
 #include <gnomon/plan_views.h>
 
-#include <gnomon/shared/shadow_volume.h>
-#include <gnomon_spirv.h>
-
 #include <glm/gtc/matrix_access.hpp>
+#include <gnomon/shared/shadow_volume.h>
 
 #include <algorithm>
 #include <array>
@@ -26,7 +25,7 @@ constexpr const char* kDrawingFins = "draw fins of smoothies";
 enum FinBinding : std::uint32_t { kFinElements, kFinTriangles, kFinPositions, kFinBindingCount };
 constexpr std::array<VkDescriptorType, kFinBindingCount> kFinTypes{
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-constexpr std::array kMapType{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}; // as ClassicPass::first_surface
+constexpr std::array kMapType{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}; // as FinPass::maps
 constexpr VkShaderStageFlags kFinStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 /// Push constants of fin_pass.glsl.
@@ -41,15 +40,16 @@ struct FinPush {
 static_assert(sizeof(FinPush) <= 128);
 
 /// The push constants of a pass, without the rows.
-FinPush pushOf(const MapPass& pass)
+FinPush pushOf(const FinPass& pass)
 {
-    const Tile& tile = pass.view->place.tile;
+    const View& view = *pass.map.view;
+    const Tile& tile = view.place.tile;
     FinPush push{};
     push.tile = {static_cast<float>(tile.x), static_cast<float>(tile.y), 0.5F * static_cast<float>(tile.width),
                  0.5F * static_cast<float>(tile.height)};
-    const std::uint32_t reach = optionsOf(*pass.plan, *pass.view).asked().smoothies.reach_texels;
-    push.rule = {static_cast<float>(reach), pass.classic.first_quantum, static_cast<float>(tile.layer),
-                 pass.view->projection.clamp_near ? 0.0F : 1.0F};
+    const std::uint32_t reach = optionsOf(*pass.map.plan, view).asked().smoothies.reach_texels;
+    push.rule = {static_cast<float>(reach), pass.quantum, static_cast<float>(tile.layer),
+                 view.projection.clamp_near ? 0.0F : 1.0F};
     return push;
 }
 
@@ -57,8 +57,8 @@ FinPush pushOf(const MapPass& pass)
 
 struct FinDrawer::Impl {
     Impl(const DeviceView& view, const FinDrawerOptions& options)
-        : device(view), cache(options.pipeline_cache), sets(device, kFinTypes, VK_SHADER_STAGE_VERTEX_BIT),
-          map_sets(device, kMapType, VK_SHADER_STAGE_FRAGMENT_BIT)
+        : device(view, classicModules()), cache(options.pipeline_cache),
+          sets(device, kFinTypes, VK_SHADER_STAGE_VERTEX_BIT), map_sets(device, kMapType, VK_SHADER_STAGE_FRAGMENT_BIT)
     {
         const std::uint32_t slots = checkedFrames(options.frames_in_flight);
         sets.reset(slots);
@@ -80,8 +80,8 @@ struct FinDrawer::Impl {
 
     [[nodiscard]] Pipeline makePipeline(bool placed);
     void checkBuffer(const BufferRef& buffer) const;
-    void checkPass(const MapPass& pass) const;
-    void bind(const MapPass& pass);
+    void checkPass(const FinPass& pass) const;
+    void bind(const FinPass& pass);
 
     Device device;
     VkPipelineCache cache;
@@ -129,22 +129,22 @@ void FinDrawer::Impl::checkBuffer(const BufferRef& buffer) const
     }
 }
 
-void FinDrawer::Impl::checkPass(const MapPass& pass) const
+void FinDrawer::Impl::checkPass(const FinPass& pass) const
 {
-    checkCommands(kDrawingFins, pass.commands);
+    checkCommands(kDrawingFins, pass.map.commands);
     if (set == VK_NULL_HANDLE) {
         refuseUse(kDrawingFins, "no frame has begun", "call beginFrame() first");
     }
-    if (!pass.classic.formats.fins || pass.plan == nullptr || pass.view == nullptr ||
-        pass.classic.first_surface == VK_NULL_HANDLE) {
-        refuseUse(kDrawingFins, "the pass is none of fins", "hand in passes with ClassicFormats::fins, as they come");
+    if (pass.map.plan == nullptr || pass.map.view == nullptr || pass.maps == VK_NULL_HANDLE) {
+        refuseUse(kDrawingFins, "the pass has no plan, view or maps", "hand in passes of DrawFins, as they come");
     }
 }
 
-void FinDrawer::Impl::bind(const MapPass& pass)
+void FinDrawer::Impl::bind(const FinPass& fins)
 {
+    const MapPass& pass = fins.map;
     const bool placed = pass.placement != VK_NULL_HANDLE;
-    const std::array both{set, pass.classic.first_surface};
+    const std::array both{set, fins.maps};
     device.vk.CmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[placed ? 1 : 0].get());
     device.vk.CmdBindDescriptorSets(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout.get(), 0,
                                     static_cast<std::uint32_t>(both.size()), both.data(), 0, nullptr);
@@ -186,12 +186,13 @@ void FinDrawer::beginFrame(std::uint32_t slot, const VolumeGeometry& geometry,
     impl_->sets.write(impl_->set, writes);
 }
 
-std::uint32_t FinDrawer::draw(const MapPass& pass)
+std::uint32_t FinDrawer::draw(const FinPass& fins)
 {
     Impl& self = *impl_;
-    self.checkPass(pass);
+    self.checkPass(fins);
+    const MapPass& pass = fins.map;
     const View& view = *pass.view;
-    FinPush push = pushOf(pass);
+    FinPush push = pushOf(fins);
     const Functions& vk = self.device.vk;
     std::uint32_t draws = 0;
     for (const std::uint32_t object : pass.casters) {
@@ -200,7 +201,7 @@ std::uint32_t FinDrawer::draw(const MapPass& pass)
             continue;
         }
         if (draws == 0) {
-            self.bind(pass);
+            self.bind(fins);
         }
         const Rows3x4& world = self.transforms[object];
         push.row_x = pack::composedRow(glm::row(view.projection.clip_from_world, 0), world);

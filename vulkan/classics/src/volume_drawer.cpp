@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gnomon/vulkan/volume_drawer.h>
 
+#include "classic_modules.h"
 #include "descriptors.h"
 #include "optional_parts.h"
 #include "pipelines.h"
@@ -8,7 +9,6 @@
 
 #include <gnomon/shared/bias.h>
 #include <gnomon/shared/shadow_volume.h>
-#include <gnomon_spirv.h>
 
 #include <algorithm>
 #include <array>
@@ -69,7 +69,7 @@ struct VolumeDrawer::Impl {
     };
 
     Impl(const DeviceView& view, const VolumeDrawerOptions& options)
-        : device(view), cache(options.pipeline_cache), shader(makeShader(device, spirv::volume_vert)),
+        : device(view, classicModules()), cache(options.pipeline_cache), shader(makeShader(device, spirv::volume_vert)),
           sets(device, kVolumeTypes, VK_SHADER_STAGE_VERTEX_BIT),
           layout(makePipelineLayout(device, sets.layout(), VK_SHADER_STAGE_VERTEX_BIT, sizeof(VolumePush)))
     {

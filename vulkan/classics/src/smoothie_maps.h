@@ -5,22 +5,20 @@
 
 #include "barriers.h"
 #include "descriptors.h"
-#include "map_recorder.h"
+#include "map_step.h"
 
 namespace gnomon::vulkan {
 
-class SmoothieMaps {
+class SmoothieMaps final : public MapStep {
 public:
     /// Precondition: options.hasSmoothies().
     SmoothieMaps(Device& device, const ResolvedOptions& options, VkPipelineCache cache);
 
-    /// For these maps, an image that has just been made; all maps are to be drawn again.
-    void setMaps(const Image& maps);
-    /// Those of the maps that the job has drawn. The maps are readable.
-    void record(const MapJob& job);
-
-    /// In GENERAL once recorded.
-    [[nodiscard]] const Image& image() const { return image_; }
+    [[nodiscard]] const char* passName() const override { return "shadow filter"; }
+    [[nodiscard]] bool needsDrawnMaps() const override { return true; } // its image is not copied
+    void setMaps(const Image& maps) override;
+    void record(const MapJob& job) override;
+    [[nodiscard]] const Image& image() const override { return image_; }
 
 private:
     struct Pass {

@@ -26,8 +26,8 @@ MapPassFormats finFormats()
 
 } // namespace
 
-FinMaps::FinMaps(Device& device, const ResolvedOptions& options)
-    : device_(device), reach_(static_cast<std::int32_t>(options.asked().smoothies.reach_texels)),
+FinMaps::FinMaps(Device& device, const ResolvedOptions& options, const DrawFins& draw)
+    : device_(device), draw_(draw), reach_(static_cast<std::int32_t>(options.asked().smoothies.reach_texels)),
       quantum_(pack::depthQuantum(options.format())), nearest_(makeSampler(device, VK_FILTER_NEAREST)),
       sets_(device, kMapType, VK_SHADER_STAGE_FRAGMENT_BIT)
 {
@@ -147,11 +147,11 @@ void FinMaps::recordMap(const MapJob& job, std::uint32_t index) const
     device_.vk.CmdBeginRendering(job.commands, &info);
     setViewport(device_, job.commands, view.place.tile);
     device_.vk.CmdSetScissor(job.commands, 0, 1, &area);
-    MapPass pass = passOf(job.commands, job.plan, index, VK_COLOR_COMPONENT_R_BIT);
-    pass.formats = finFormats();
-    pass.classic = {{.fins = true}, set_, quantum_};
-    pass.casters = castersOf(job.plan, view, CasterShare::all);
-    job.draw(pass);
+    FinPass pass{passOf(job, index, VK_COLOR_COMPONENT_R_BIT), set_, quantum_};
+    pass.map.formats = finFormats();
+    pass.map.classic = nullptr;
+    pass.map.casters = castersOf(job.plan, view, CasterShare::all);
+    draw_(pass);
     device_.vk.CmdEndRendering(job.commands);
     device_.endLabel(job.commands);
 }

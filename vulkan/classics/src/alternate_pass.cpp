@@ -8,6 +8,7 @@
 #include <gnomon/plan_views.h>
 
 #include <gnomon/shared/sun_steps.h>
+#include <gnomon_classic_spirv.h>
 #include <gnomon_spirv.h>
 
 #include <glm/geometric.hpp>
@@ -80,17 +81,17 @@ Pipeline AlternatePass::makePipeline(VkFormat mask_format)
     return makeGraphicsPipeline(device_, state);
 }
 
-void AlternatePass::warmUp(VkFormat mask_format)
+void AlternatePass::warmUp(const MaskKind& mask)
 {
-    if (std::ranges::find(pipelines_, mask_format, &Made::mask_format) == pipelines_.end()) {
-        pipelines_.push_back({mask_format, makePipeline(mask_format)});
+    if (std::ranges::find(pipelines_, mask.format, &Made::mask_format) == pipelines_.end()) {
+        pipelines_.push_back({mask.format, makePipeline(mask.format)});
     }
 }
 
-void AlternatePass::prepare(const ImageInfo& mask, std::size_t lights)
+void AlternatePass::prepare(const Plan& plan, const ImageInfo& mask, const MaskShape&)
 {
-    warmUp(mask.format);
-    lights_.resize(std::max(lights_.size(), lights));
+    warmUp({.format = mask.format});
+    lights_.resize(std::max(lights_.size(), plan.lights.size()));
     if (history_.prepare(mask)) {
         forget();
     }
@@ -101,13 +102,13 @@ void AlternatePass::forget()
     std::fill(lights_.begin(), lights_.end(), LightHistory{});
 }
 
-void AlternatePass::writeSet(VkDescriptorSet set, const AlternateInputs& inputs)
+void AlternatePass::writeSet(VkDescriptorSet set, const MaskJob& job)
 {
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const VkSampler sampler = sampler_.get();
     const std::array<DescriptorSets::Write, kBindingCount> writes{
-        DescriptorSets::buffer(kConstants, inputs.constants, sizeof(shared::GpuConstants)),
-        DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
+        DescriptorSets::buffer(kConstants, job.constants, sizeof(shared::GpuConstants)),
+        DescriptorSets::image(kDepth, sampler, job.inputs.depth, job.inputs.depth_layout),
         DescriptorSets::image(kNow, sampler, history_.now().visibility.view(), kRead),
         DescriptorSets::image(kBefore, sampler, history_.before().visibility.view(), kRead),
         DescriptorSets::image(kDistances, sampler, history_.before().surfaces.view(), kRead)};
@@ -157,11 +158,12 @@ void AlternatePass::recordLayer(VkCommandBuffer commands, const Plan& plan, std:
     device_.vk.CmdEndRendering(commands);
 }
 
-void AlternatePass::record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan,
-                           const AlternateInputs& inputs, const Image& mask)
+void AlternatePass::record(const MaskJob& job, const Image& mask)
 {
-    const VkDescriptorSet set = slots_[slot][history_.turn()];
-    writeSet(set, inputs);
+    const VkCommandBuffer commands = job.commands;
+    const Plan& plan = job.plan;
+    const VkDescriptorSet set = slots_[job.slot][history_.turn()];
+    writeSet(set, job);
     history_.begin(commands);
     device_.beginLabel(commands, "alternate");
     const auto made = std::ranges::find(pipelines_, mask.info().format, &Made::mask_format);

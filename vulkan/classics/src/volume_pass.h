@@ -5,33 +5,25 @@
 
 #include "descriptors.h"
 #include "device.h"
-#include "stand_in.h"
+#include "mask_step.h"
 
 #include <gnomon/pack/volume_draws.h>
+#include <gnomon/vulkan/volume_drawer.h>
 
 #include <vector>
 
 namespace gnomon::vulkan {
 
-/// The lights' constants: GpuConstants by options.
-struct ConstantsRef {
-    VkBuffer buffer = VK_NULL_HANDLE;
-    VkDeviceSize stride = 0; // bytes
-};
-
-class VolumePassRecorder {
+class VolumePassRecorder final : public MaskStep {
 public:
-    VolumePassRecorder(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache);
+    /// `draw` has to live longer.
+    VolumePassRecorder(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache, const DrawVolumes& draw);
 
-    /// Has the plan such lights?
-    [[nodiscard]] static bool draws(const Plan& plan);
-    /// Makes the depth buffer if the size changed, sets for the plan's options, and the pipelines that inputs of this
-    /// shape need. Throws Error where the device has no such depth buffer.
-    void prepare(const Plan& plan, VkExtent2D screen, VkFormat mask_format, const MaskShape& shape);
-    void warmUp(VkFormat mask_format, std::uint32_t channels, const MaskShape& shape);
-    /// All of them, to `target`, which is in COLOR_ATTACHMENT_OPTIMAL and has what the other lights have drawn.
-    void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
-                const ConstantsRef& constants, const StandIn& no_ids, const Image& target);
+    void warmUp(const MaskKind& mask) override;
+    /// Throws Error where the device has no depth buffer with stencil.
+    void prepare(const Plan& plan, const ImageInfo& mask, const MaskShape& shape) override;
+    /// Adds to what the other lights have drawn.
+    void record(const MaskJob& job, const Image& mask) override;
 
 private:
     struct Key {
@@ -49,14 +41,6 @@ private:
         bool smooth = false;                   // MaskShape::smooth
         Pipeline pipeline;
     };
-    struct Job {
-        VkCommandBuffer commands;
-        std::uint32_t slot;
-        const Plan& plan;
-        const MaskInputs& inputs;
-        VkFormat format; // the mask's format
-    };
-
     void makeSets(std::uint32_t options);
     [[nodiscard]] VkPipeline maskPipeline(const Key& key);
     [[nodiscard]] Pipeline makeMaskPipeline(const Key& key);
@@ -66,13 +50,14 @@ private:
     {
         return slot_sets_[slot * options_ + options];
     }
-    void writeSets(std::uint32_t slot, const MaskInputs& inputs, const ConstantsRef& constants, const StandIn& no_ids);
+    void writeSets(const MaskJob& job);
     void beginLayer(VkCommandBuffer commands, const Image& target, std::uint32_t layer);
-    void copyDepth(const Job& job, std::uint32_t layer);
-    void countLight(const Job& job, const pack::VolumeDraw& draw);
-    void drawLight(const Job& job, const pack::VolumeDraw& draw);
+    void copyDepth(const MaskJob& job, VkFormat format, std::uint32_t layer);
+    void countLight(const MaskJob& job, VkFormat format, const pack::VolumeDraw& draw);
+    void drawLight(const MaskJob& job, VkFormat format, const pack::VolumeDraw& draw);
 
     Device& device_;
+    const DrawVolumes& draw_;
     /// Its 8 bits of stencil count modulo 256: a pixel in as many volumes as that would be lit.
     VkFormat depth_stencil_;
     std::uint32_t slot_count_;

@@ -9,13 +9,38 @@
 #include <gnomon/pack/caster_rows.h>
 #include <gnomon/vulkan/shadow_renderer.h>
 
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
 namespace gnomon::vulkan {
 
 using pack::Rows3x4;
+
+/// One light's shadow volumes to draw (pack::VolumeDraw), given to the host's callback. Rendering has begun, and the
+/// camera's depth is in the depth buffer; viewport, scissor and, with FeatureUses::depth_bounds, depth bounds are set.
+/// The callback binds its pipelines and draws; it must not end rendering. Its pipelines clamp depth, test it and do not
+/// write it: GREATER with `reversed_z`, else LESS. Where the test fails they add 1 to the stencil for faces that turn
+/// away from the eye and take 1 away for those that turn to it, wrapping. They write no colour.
+struct VolumePass {
+    VkCommandBuffer commands = VK_NULL_HANDLE;             // to record into
+    VkFormat colour = VK_FORMAT_UNDEFINED;                 // format of the one colour attachment
+    VkFormat depth_stencil = VK_FORMAT_D32_SFLOAT_S8_UINT; // format of that attachment; or D24_UNORM_S8_UINT
+    bool reversed_z = true;                                // the camera's depth is 1 at the near plane
+    const Plan* plan = nullptr;                            // never null
+    std::uint32_t light = 0;                               // index into Plan::lights
+    std::span<const std::uint32_t> casters;                // object indices: all of them must be drawn
+    glm::mat4 clip_from_eye{1.0F};                         // the camera's, for points relative to the eye
+    glm::dvec3 eye_ws{0.0};                                // metres, world space
+    glm::vec4 place{0.0F}; // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position
+};
+/// Draws one light's volumes.
+using DrawVolumes = std::function<void(const VolumePass&)>;
 
 /// The volume of one object: a range of VolumeGeometry::elements. Without elements it casts nothing.
 struct VolumeMesh {
