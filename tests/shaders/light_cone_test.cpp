@@ -350,8 +350,7 @@ TEST(Raymarch, BlocksOnlySaveWork)
             const RayCone cone = rayCone(point, f);
             const double v = lookAround(point, f, cone, kStartsWithin, kRayEnd).visibility;
             if (v >= 0.0) {
-                EXPECT_NEAR(traceRays(point, f, cone, 0.0, RayTask{64, true, 1.0}).lit, v, 0.08)
-                    << round << ", " << i;
+                EXPECT_NEAR(traceRays(point, f, cone, 0.0, RayTask{64, true, 1.0}).lit, v, 0.08) << round << ", " << i;
                 ++decided;
             }
         }

@@ -14,10 +14,6 @@ GN_CONST real kCrease = real(1.6);
 // that will leave the receiver to another draw. The first narrowing settles nearly all that the others do.
 GN_CONST int kNarrowings = 4;
 GN_CONST int kFewNarrowings = 1;
-// A constant: whether a filter says no more than what blocks settle, and anything below 0 of other receivers.
-#ifndef GNOMON_SETTLES
-#define GNOMON_SETTLES false
-#endif
 
 // Texels around the receiver that the cone may touch as far as `s`: low x, y, high x, y, absolute. A rim that leads
 // beyond what a perspective map shows gives a rectangle that holds nothing else either.
