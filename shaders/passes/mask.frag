@@ -56,6 +56,10 @@ layout(constant_id = 24) const bool kOrthographic = false; // all views are
 #define GNOMON_LAYERED (kLayered && !kOrthographic)
 #define GNOMON_ORTHOGRAPHIC_ONLY kOrthographic
 #endif
+#if GNOMON_COMPILES_BLOCKS
+layout(constant_id = 25) const bool kSettles = false; // draws what blocks settle, and leaves the rest to a draw without it
+#define GNOMON_SETTLES kSettles
+#endif
 layout(constant_id = 22) const int kPixelsPerTexel = 1; // along x and y, of what is drawn to: mask-size=half
 layout(push_constant) uniform Lights
 {
@@ -201,6 +205,11 @@ void main()
     do {
         GnomonTileLight one = nextLight(left);
         vec4 v = lightVisibility(one.light, p, n, s, vec3(1.0), centre, h.w);
+#ifdef GNOMON_MAY_LEAVE
+        if (kSettles && lookup_left) {
+            discard;
+        }
+#endif
         if (kConfidence && lookup_confidence >= 0.0) {
             v += packSeen(0.0, lookup_confidence);
         }

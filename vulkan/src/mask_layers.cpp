@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mask pass's recording of a layer: its draws at every pixel, or for MaskSize::half three steps. One pixel of each
-// 2 x 2 is drawn to an image of half the size, that is spread over the mask, and the remaining pixels are drawn.
+// The mask pass's recording of a layer. Most filters are drawn at every pixel. Those that have blocks are drawn where
+// blocks settle the pixel, and then where they do not: few pixels, which a device has together then. MaskSize::half
+// takes three steps. One pixel of each 2 x 2 is drawn to an image of half the size, that is spread over the mask, and
+// the remaining pixels are drawn.
 #include "mask_pass.h"
 
 #include "barriers.h"
@@ -19,10 +21,29 @@ VkRect2D rectOf(const pack::ScreenBounds& bounds)
             {bounds.x1 - bounds.x0, bounds.y1 - bounds.y0}};
 }
 
-bool isDrawnAs(const Plan& plan, const pack::MaskDraw& draw, DrawnAs as)
+bool beginsAs(const Plan& plan, const pack::MaskDraw& draw, DrawnAs as)
 {
-    return (*plan.options)[draw.options].halvesMask() == (as != DrawnAs::whole);
+    return drawnFirst((*plan.options)[draw.options]) == as;
 }
+
+/// A label around what is recorded while it lives.
+class MaskLabel {
+public:
+    MaskLabel(const Device& device, VkCommandBuffer commands, const char* what, std::uint32_t layer)
+        : device_(device), commands_(commands)
+    {
+        char label[32];
+        std::snprintf(label, sizeof label, "%s %u", what, layer);
+        device.beginLabel(commands, label);
+    }
+    ~MaskLabel() { device_.endLabel(commands_); }
+    MaskLabel(const MaskLabel&) = delete;
+    MaskLabel& operator=(const MaskLabel&) = delete;
+
+private:
+    const Device& device_;
+    VkCommandBuffer commands_;
+};
 
 void grow(pack::ScreenBounds& bounds, const pack::ScreenBounds& by)
 {
@@ -33,10 +54,10 @@ void grow(pack::ScreenBounds& bounds, const pack::ScreenBounds& by)
 
 } // namespace
 
-bool MaskPassRecorder::hasDraws(const Plan& plan, std::uint32_t layer, DrawnAs as) const
+bool MaskPassRecorder::hasDraws(const Plan& plan, std::uint32_t layer, DrawnAs first) const
 {
     return std::ranges::any_of(
-        now_.draws, [&](const pack::MaskDraw& draw) { return draw.layer == layer && isDrawnAs(plan, draw, as); });
+        now_.draws, [&](const pack::MaskDraw& draw) { return draw.layer == layer && beginsAs(plan, draw, first); });
 }
 
 void MaskPassRecorder::recordDraw(VkCommandBuffer commands, const Plan& plan, const Slot& slot,
@@ -54,21 +75,39 @@ void MaskPassRecorder::recordDraw(VkCommandBuffer commands, const Plan& plan, co
 }
 
 void MaskPassRecorder::recordDraws(VkCommandBuffer commands, const Plan& plan, const Slot& slot, std::uint32_t layer,
-                                   DrawnAs as)
+                                   DrawnAs first, DrawnAs as)
 {
     for (const pack::MaskDraw& draw : now_.draws) {
-        if (draw.layer == layer && isDrawnAs(plan, draw, as)) {
+        if (draw.layer == layer && beginsAs(plan, draw, first)) {
             recordDraw(commands, plan, slot, draw, as);
         }
     }
 }
 
+void MaskPassRecorder::recordSettled(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target,
+                                     std::uint32_t layer)
+{
+    const MaskLabel label(device_, commands, "mask layer", layer);
+    marks_.begin(device_, commands, target, layer, hasDraws(plan, layer, DrawnAs::whole));
+    std::uint32_t i = 0;
+    for (const pack::MaskDraw& draw : now_.draws) {
+        if (draw.layer != layer || !beginsAs(plan, draw, DrawnAs::settled)) {
+            continue;
+        }
+        for (const DrawnAs as : {DrawnAs::settled, DrawnAs::left}) {
+            const VkViewport viewport = MaskMarks::viewport(target.info().extent, i, as == DrawnAs::left);
+            device_.vk.CmdSetViewport(commands, 0, 1, &viewport);
+            recordDraw(commands, plan, slot, draw, as);
+        }
+        ++i;
+    }
+    device_.vk.CmdEndRendering(commands);
+}
+
 void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target,
                                    std::uint32_t layer, DrawnAs as)
 {
-    char label[32];
-    std::snprintf(label, sizeof label, as == DrawnAs::half ? "half mask layer %u" : "mask layer %u", layer);
-    device_.beginLabel(commands, label);
+    const MaskLabel label(device_, commands, as == DrawnAs::half ? "half mask layer" : "mask layer", layer);
     const VkExtent2D extent = target.info().extent;
     VkRenderingAttachmentInfo colour{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     colour.imageView = target.layer(layer);
@@ -85,18 +124,21 @@ void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const Plan& plan, c
     const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
                               0.0F, 1.0F};
     device_.vk.CmdSetViewport(commands, 0, 1, &viewport);
-    recordDraws(commands, plan, slot, layer, as);
+    recordDraws(commands, plan, slot, layer, as, as);
     device_.vk.CmdEndRendering(commands);
-    device_.endLabel(commands);
 }
 
-/// But those that recordHalved() begins.
+/// Layers that recordHalved() begins are left to it.
 void MaskPassRecorder::recordLayers(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target)
 {
     toAttachment(device_, commands, target);
     for (std::uint32_t layer = 0; layer < target.info().layers; ++layer) {
-        if (hasDraws(plan, layer, DrawnAs::whole) || !hasDraws(plan, layer, DrawnAs::half)) {
+        const bool settles = hasDraws(plan, layer, DrawnAs::settled);
+        if (hasDraws(plan, layer, DrawnAs::whole) || !(settles || hasDraws(plan, layer, DrawnAs::half))) {
             recordLayer(commands, plan, slot, target, layer, DrawnAs::whole);
+        }
+        if (settles) {
+            recordSettled(commands, plan, slot, target, layer);
         }
     }
 }
@@ -114,23 +156,23 @@ void MaskPassRecorder::recordHalved(VkCommandBuffer commands, std::uint32_t slot
         }
     }
     toReadable(device_, commands, half);
-    spread_->begin(commands, slot_index,
-                   {inputs.depth, inputs.depth_layout, inputs.normal, inputs.object_id, no_numbers_.layer(),
-                    slot.constants.buffer()},
-                   target);
+    spread_->begin(slot_index, {inputs.depth, inputs.depth_layout, inputs.normal, inputs.object_id, no_numbers_.layer(),
+                                slot.constants.buffer()});
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
         if (!hasDraws(plan, layer, DrawnAs::half)) {
             continue;
         }
         pack::ScreenBounds area;
         for (const pack::MaskDraw& draw : now_.draws) {
-            if (draw.layer == layer && isDrawnAs(plan, draw, DrawnAs::half)) {
+            if (draw.layer == layer && beginsAs(plan, draw, DrawnAs::half)) {
                 grow(area, draw.pixels);
             }
         }
         device_.beginLabel(commands, "mask spread");
-        spread_->spread(commands, target, layer, rectOf(area), hasDraws(plan, layer, DrawnAs::whole));
-        recordDraws(commands, plan, slot, layer, DrawnAs::left);
+        marks_.begin(device_, commands, target, layer,
+                     hasDraws(plan, layer, DrawnAs::whole) || hasDraws(plan, layer, DrawnAs::settled));
+        spread_->spread(commands, target, layer, rectOf(area));
+        recordDraws(commands, plan, slot, layer, DrawnAs::half, DrawnAs::left);
         device_.vk.CmdEndRendering(commands);
         device_.endLabel(commands);
     }

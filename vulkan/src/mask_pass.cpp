@@ -187,6 +187,7 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen, const MapCla
         makePipelines(plan, *shape_);
     }
     prepareHistories(plan);
+    prepareMarks(plan);
     prepareSpread(plan);
     prepareSoften(plan);
     prepareVolumes(plan);

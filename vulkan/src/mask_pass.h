@@ -6,6 +6,7 @@
 #include "classics.h"
 #include "converge_pass.h"
 #include "map_class.h"
+#include "mask_marks.h"
 #include "mask_pipelines.h"
 #include "mask_source.h"
 #include "mask_spread.h"
@@ -69,6 +70,8 @@ public:
     [[nodiscard]] bool holdsSoften(const Plan& plan) const { return soften_ && soften_->holds(mask_.info(), plan); }
     /// Did it make what record() needs for lights that pack::halvesMask()?
     [[nodiscard]] bool holdsSpread(const Plan& plan) const { return spread_ && spread_->holds(drawnInfo(plan)); }
+    /// Did it make what tells pixels that are done from those that are left, if this plan's filters leave any?
+    [[nodiscard]] bool holdsMarks(const Plan& plan) const;
     [[nodiscard]] const Image& mask() const { return mask_; }
     /// Was the last prepare() for a plan with shadow volumes?
     [[nodiscard]] bool countsVolumes() const { return counts_volumes_; }
@@ -122,8 +125,9 @@ private:
     void makeVolumes();
     void prepareVolumes(const Plan& plan);
     void prepareHistories(const Plan& plan);
-    /// Are there draws of this layer that are to be drawn as this?
-    [[nodiscard]] bool hasDraws(const Plan& plan, std::uint32_t layer, DrawnAs as) const;
+    void prepareMarks(const Plan& plan);
+    /// Are there draws of this layer that begin so?
+    [[nodiscard]] bool hasDraws(const Plan& plan, std::uint32_t layer, DrawnAs first) const;
     void recordLayers(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target);
     void recordHalved(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
                       const Image& target);
@@ -136,7 +140,11 @@ private:
     void fill(Slot& slot, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps);
     void recordLayer(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target,
                      std::uint32_t layer, DrawnAs as);
-    void recordDraws(VkCommandBuffer commands, const Plan& plan, const Slot& slot, std::uint32_t layer, DrawnAs as);
+    /// Of the layer's draws that begin as `first` this part.
+    void recordDraws(VkCommandBuffer commands, const Plan& plan, const Slot& slot, std::uint32_t layer, DrawnAs first,
+                     DrawnAs as);
+    void recordSettled(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target,
+                       std::uint32_t layer);
     void recordDraw(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const pack::MaskDraw& draw,
                     DrawnAs as);
 
@@ -146,6 +154,7 @@ private:
     const Classics* classics_; // not null where options need them
     pack::CompactMaskRule compact_;
     Image mask_;
+    MaskMarks marks_;    // for what blocks settle, and for MaskSpread
     StandIn no_numbers_; // bound where there are no ids of objects, or no blocks
     DescriptorSets sets_;
     PipelineLayout layout_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mask_pipelines.h"
 
-#include "mask_spread.h"
+#include "mask_marks.h"
 #include "pipelines.h"
 #include "specialisation.h"
 
@@ -41,7 +41,16 @@ MaskPipelineKey drawnAs(MaskPipelineKey key, DrawnAs as)
 {
     key.as = as;
     key.constants.pixels_per_texel = as == DrawnAs::half ? 2 : 1;
+    key.constants.settles = as == DrawnAs::settled ? VK_TRUE : VK_FALSE;
     return key;
+}
+
+DrawnAs drawnFirst(const ResolvedOptions& options)
+{
+    if (options.halvesMask()) {
+        return DrawnAs::half;
+    }
+    return options.traits().integrates_light ? DrawnAs::settled : DrawnAs::whole;
 }
 
 MaskPipelines::MaskPipelines(Device& device, const ShadowRendererOptions& options)
@@ -93,10 +102,11 @@ Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout
     state.colour_format = key.format;
     state.takes_away = key.constants.takes_away == VK_TRUE;
     state.keeps_least = key.shares && !state.takes_away; // a draw writes 1 to channels that are not its own
-    const VkPipelineDepthStencilStateCreateInfo where_left = MaskSpread::whereLeft();
-    if (key.as == DrawnAs::left) {
-        state.depth_format = MaskSpread::kMarkFormat;
-        state.depth_stencil = &where_left;
+    const VkPipelineDepthStencilStateCreateInfo marks =
+        key.as == DrawnAs::settled ? MaskMarks::marking() : MaskMarks::whereLeft();
+    if (key.as == DrawnAs::settled || key.as == DrawnAs::left) {
+        state.depth_format = MaskMarks::kFormat;
+        state.depth_stencil = &marks;
     }
     state.cache = cache_;
     state.name = "mask";

@@ -31,16 +31,20 @@ struct MaskConstants {
     std::uint32_t pixels_per_texel = 1; // DrawnAs::half: 2
     VkBool32 layered = VK_FALSE;        // views may be ViewServes::layered
     VkBool32 orthographic = VK_FALSE;   // pack::MaskDraw::orthographic
+    VkBool32 settles = VK_FALSE;        // DrawnAs::settled
 
     bool operator==(const MaskConstants&) const = default;
 };
 
 /// The part of a mask's draw that is drawn, and its target.
 enum class DrawnAs : std::uint8_t {
-    whole, // all pixels, to the mask
-    half,  // one pixel of each 2 x 2, to MaskSpread::half()
-    left   // the pixels that MaskSpread left, to the mask
+    whole,   // all pixels, to the mask
+    settled, // the pixels that blocks settle, to the mask
+    half,    // one pixel of each 2 x 2, to MaskSpread::half()
+    left     // after settled or MaskSpread, the pixels that it left, to the mask
 };
+/// The first part to be drawn with these options.
+[[nodiscard]] DrawnAs drawnFirst(const ResolvedOptions& options);
 
 struct MaskPipelineKey {
     Filter module = Filter::pcf; // pack::filterModule()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // mask-size=half: the image of half the mask's size, and how it is spread over the mask. Where it says nothing the mask
-// pass draws itself: `marks` has 0 where the mask is done, and a draw at depth 0 passes where it is not.
+// pass draws itself: MaskMarks have 0 where the mask is done, and a draw at depth 0 passes where it is not.
 #pragma once
 
 #include "descriptors.h"
@@ -23,26 +23,22 @@ struct SpreadInputs {
 
 class MaskSpread {
 public:
-    static constexpr VkFormat kMarkFormat = VK_FORMAT_D16_UNORM; // any device draws to it
-    /// The state of draws of the pixels that the pass leaves.
-    [[nodiscard]] static VkPipelineDepthStencilStateCreateInfo whereLeft();
-
     MaskSpread(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache);
 
     /// Makes the pipeline for masks of this format.
     void warmUp(VkFormat format, const MaskShape& inputs) { (void)pipeline({format, inputs.normals, inputs.ids}); }
-    /// Makes the images for a mask like this one, if those that are there do not fit.
+    /// Makes the image for a mask like this one, if the one that is there does not fit.
     void prepare(const ImageInfo& mask);
-    /// Are they there?
+    /// Is it there?
     [[nodiscard]] bool holds(const ImageInfo& mask) const;
     /// The image of half the size, rounded up, with the mask's layers. The pass that draws to it clears it to 1.
     [[nodiscard]] const Image& half() const { return half_; }
 
-    /// Before the layers of a frame: `target` was drawn to and will be again, half() may be read.
-    void begin(VkCommandBuffer commands, std::uint32_t slot, const SpreadInputs& inputs, const Image& target);
-    /// Begins the drawing of a layer of the target and spreads half() over `area` of it. `keeps`: what is there;
-    /// else it is cleared to 1. Draws of what is left may follow, and then vkCmdEndRendering.
-    void spread(VkCommandBuffer commands, const Image& target, std::uint32_t layer, const VkRect2D& area, bool keeps);
+    /// Before the layers of a frame: half() may be read.
+    void begin(std::uint32_t slot, const SpreadInputs& inputs);
+    /// Spreads half() over `area` of a layer of the target, whose rendering MaskMarks::begin() has begun. Draws of what
+    /// is left may follow, and then vkCmdEndRendering.
+    void spread(VkCommandBuffer commands, const Image& target, std::uint32_t layer, const VkRect2D& area);
 
 private:
     struct Key {
@@ -67,7 +63,6 @@ private:
     std::vector<VkDescriptorSet> slots_;
     std::vector<Made> pipelines_;
     Image half_;
-    Image marks_;                          // the mask's size; its single layer serves one after the other
     VkDescriptorSet set_ = VK_NULL_HANDLE; // for the frame that is being recorded
     bool normals_ = false;                 // the frame that is being recorded has normals
     bool ids_ = false;                     // the frame that is being recorded has object ids

@@ -22,11 +22,25 @@ std::uint32_t channelsAlone(const ResolvedOptions& options)
     return isColoured(options) ? 4 : 1;
 }
 
+bool leavesPixels(const Plan& plan)
+{
+    return std::ranges::any_of(*plan.options,
+                               [](const ResolvedOptions& one) { return drawnFirst(one) != DrawnAs::whole; });
+}
+
 std::span<const DrawnAs> waysToDraw(const ResolvedOptions& options)
 {
     static constexpr std::array kWhole{DrawnAs::whole};
+    static constexpr std::array kSettled{DrawnAs::settled, DrawnAs::left};
     static constexpr std::array kHalved{DrawnAs::half, DrawnAs::left};
-    return options.halvesMask() ? std::span<const DrawnAs>(kHalved) : std::span<const DrawnAs>(kWhole);
+    switch (drawnFirst(options)) {
+    case DrawnAs::half:
+        return kHalved;
+    case DrawnAs::settled:
+        return kSettled;
+    default:
+        return kWhole;
+    }
 }
 
 } // namespace
@@ -288,6 +302,18 @@ void MaskPassRecorder::prepareHistories(const Plan& plan)
             alternate_->warmUp({.format = converge_->target().info().format});
         }
     }
+}
+
+void MaskPassRecorder::prepareMarks(const Plan& plan)
+{
+    if (leavesPixels(plan)) {
+        marks_.prepare(device_, mask_.info().extent);
+    }
+}
+
+bool MaskPassRecorder::holdsMarks(const Plan& plan) const
+{
+    return !leavesPixels(plan) || marks_.holds(mask_.info().extent);
 }
 
 /// Prepares it where some options halve the mask, in the format that this plan's lights are drawn in.

@@ -192,6 +192,9 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
     if (halves && !impl_->parts->mask.holdsSpread(plan)) {
         refuseUse(kTried, "prepare() made no image of half the mask's size", "call prepare() with this plan first");
     }
+    if (!impl_->parts->mask.holdsMarks(plan)) {
+        refuseUse(kTried, "prepare() made no marks for this plan's filters", "call prepare() with this plan first");
+    }
     impl_->device.enter(slot, Retirement::Work::mask);
     bool kept = false;
     impl_->whole([&](RendererParts& parts) {

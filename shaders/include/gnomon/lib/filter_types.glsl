@@ -27,6 +27,10 @@
 #ifndef GNOMON_RECOMPUTES
 #define GNOMON_RECOMPUTES false
 #endif
+// A constant: whether a filter that has blocks says what they settle, and of other receivers anything below 0.
+#ifndef GNOMON_SETTLES
+#define GNOMON_SETTLES false
+#endif
 GN_BEGIN
 
 struct FilterInput {

@@ -83,6 +83,12 @@ layout(set = GNOMON_SET, binding = GNOMON_FEW_BINDING, std140) uniform GnomonFew
 #ifndef GNOMON_BLOCKS_BINDING
 #define GNOMON_BLOCKS_BINDING GNOMON_BINDING + 5
 #endif
+// A pass may define GNOMON_SETTLES, a constant: it draws what blocks settle (lib/cone_texels.glsl), and leaves a pixel to
+// another draw where the last lightVisibility() set lookup_left.
+#ifdef GNOMON_SETTLES
+#define GNOMON_MAY_LEAVE
+bool lookup_left;
+#endif
 #include "map_texture.glsl"
 
 // A pass may define GNOMON_IN_SOFTWARE, a constant: a software rasteriser runs it.
@@ -330,6 +336,9 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
                     colour = GNOMON_FEW_VIEWS == 1 ? (share > 0.0 ? tinted : colour) : colour * (1.0 - share) + tinted * share;
                 }
 #endif
+#ifdef GNOMON_MAY_LEAVE
+                lookup_left = lookup_left || (here < 0.0 && share > 0.0);
+#endif
                 // The first view's value is taken exactly, which mix() does not promise.
                 seen = GNOMON_FEW_VIEWS == 1 ? (share > 0.0 ? here : seen) : seen * (1.0 - share) + here * share;
 #ifdef GNOMON_HAS_CONFIDENCE
@@ -393,6 +402,9 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     placeObject(f, light.options, at.p);
     f.lifted = at.p == p ? 0.0 : 1.0;
 #endif
+#ifdef GNOMON_MAY_LEAVE
+    lookup_left = false;
+#endif
     float faded = fadedShare(GNOMON_NUMBERS.screen.fade, length(p));
     float seen = 1.0;
     vec3 colour = vec3(1.0);
@@ -411,6 +423,9 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
         range = light.views.zw;
         is_later = true;
     } while ((GNOMON_FEW_VIEWS == 0 || GNOMON_PAIRED) && more); // else few views are of one position
+#ifdef GNOMON_MAY_LEAVE
+    lookup_left = lookup_left && at.share > 0.0 && faded < 1.0;
+#endif
     return GNOMON_TINTS ? vec4(colour, seen) : vec4(seen);
 }
 

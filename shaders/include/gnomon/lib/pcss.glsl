@@ -48,7 +48,7 @@ GN_FN real filterPcss(MapPoint point, FilterInput f)
 {
     RayCone cone = rayCone(point, f);
     Surroundings around = lookAround(point, f, cone, real(1.0), kDiscEnd);
-    if (around.visibility >= real(0.0)) {
+    if (around.visibility >= real(0.0) || GNOMON_SETTLES) {
         return around.visibility;
     }
     ConeNoise noise = coneNoise(noisePlace(f));

@@ -15,7 +15,7 @@
 // texel.
 #ifndef GNOMON_RAYMARCH_GLSL
 #define GNOMON_RAYMARCH_GLSL
-#include "cone_texels.glsl"
+#include "edge_line.glsl"
 GN_BEGIN
 
 // Rays of a pixel, by how far they spread. In a narrow penumbra no more than the first few if these agree.
@@ -34,33 +34,14 @@ GN_CONST int kRayOffset = 14;
 GN_CONST int kPixelSteps = 1024;
 GN_CONST int kRaySteps = 256;
 // The square around the receiver that rays start in, texels. In it an edge's place is found to less than a texel. In a
-// penumbra so wide that nothing is to be narrowed it is one texel, which blurs less.
+// penumbra so wide that its edge is not seen it is one texel, which blurs less.
 GN_CONST real kStartsWithin = real(1.5);
 // The square where frames are averaged whose maps lie a part of a texel apart: these frames find the edge's place.
 GN_CONST real kStartsAtRest = real(0.5);
-// Rays that are blocked on one side tell an edge from leaves and wires (RaysFound::straight): none of the edge's ramp is
-// narrowed below the first value, all above the second.
-GN_CONST real kStraightFrom = real(0.5);
-GN_CONST real kStraightTo = real(0.9);
-// Penumbrae in texels: up to the first all of the ramp is narrowed, from the second on none.
+// Penumbrae in texels: up to the first a few rays may do if they agree, and from the second on lines along edges are not
+// tried.
 GN_CONST real kWideFrom = real(3.0);
 GN_CONST real kWideTo = real(6.0);
-// No edge is narrowed further, texels: the map does not say where it is within less.
-GN_CONST real kNarrowest = real(0.8);
-
-// Where the first rays find an edge, kStripRays more find its place in a strip along it, kStripWide by kStripLong.
-// Over such a length the steps of its texels are one line. Penumbrae that have a strip are narrow, so these rays are
-// short, and stay far below kPixelSteps.
-GN_CONST int kStripRays = 25;
-GN_CONST real kStripWide = real(1.5);
-GN_CONST real kStripLong = real(5.0);
-// RaysFound::straight less than the first is no edge. The strip's own value gives the strip no weight below the second,
-// and all weight above the third. Lower limits made woods brighter.
-GN_CONST real kEdgeFrom = real(0.8);
-GN_CONST real kStripFrom = real(0.6);
-GN_CONST real kStripTo = real(0.9);
-// No edge in a strip is narrowed further, texels.
-GN_CONST real kNarrowestInStrip = real(0.6);
 
 // A pass that shows how rays fared has one of these instead of visibility: what blocks decided without a ray; as many
 // rays as wanted; fewer, or some that ended after kRaySteps.
@@ -192,7 +173,7 @@ GN_FN bool texelBlocks(RayTexel before, RayTexel here, real enters, real leaves,
 
 // The end of a ray.
 struct RayEnd {
-    real fall; // fall of the metric to where it leaves the texel that blocks it; negative: none blocks it
+    bool blocked;
     int steps; // squares and texels that it visited
 };
 
@@ -251,7 +232,7 @@ GN_FN RayEnd followRay(MapPoint point, FilterInput f, LightRay ray)
         more = more && cell.x >= f.tile.x && cell.y >= f.tile.y && cell.x < f.tile.z && cell.y < f.tile.w;
     } while (more);
     RayEnd found;
-    found.fall = blocked ? ray.from - enters : real(-1.0);
+    found.blocked = blocked;
     found.steps = steps;
     return found;
 }
@@ -259,30 +240,14 @@ GN_FN RayEnd followRay(MapPoint point, FilterInput f, LightRay ray)
 // Which rays of a pixel are traced.
 struct RayTask {
     int count;
-    bool all; // else the first kRaysToAgree if these agree
-    // Where they start around their receiver, on its plane: a rectangle of the map.
-    real2 way;  // unit vector along its first side
-    real side;  // texels
-    bool strip; // the other side is kStripLong; else as the first
+    bool all;  // else the first kRaysToAgree if these agree
+    real side; // of the square around the receiver that they start in, texels
 };
-
-GN_FN RayTask taskInSquare(int count, bool all, real side)
-{
-    RayTask task;
-    task.count = count;
-    task.all = all;
-    task.way = real2(real(1.0), real(0.0));
-    task.side = side;
-    task.strip = false;
-    return task;
-}
 
 // The result of a pixel's rays.
 struct RaysFound {
-    real lit;     // share of the rays that reach the light
-    real2 to_lit; // from the middle of all starts to the middle of lit ones, texels
-    real fall;    // fall of the metric from the receiver to blockers: mean
-    bool cut;     // kRaySteps or kPixelSteps were too few
+    real lit; // share of the rays that reach the light
+    bool cut; // kRaySteps or kPixelSteps were too few
 };
 
 // Above depth `nearest` nothing casts.
@@ -298,9 +263,6 @@ GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone kept, real near
     bool cut = false;
     int steps = 0;
     real lit = real(0.0);
-    real falls = real(0.0);
-    real2 starts = real2(real(0.0));
-    real2 starts_lit = real2(real(0.0));
     int i = 0;
     int strewn = kRayOffset; // (i * kRayStride + kRayOffset) % count, for which software has no quick division
     do {
@@ -316,57 +278,26 @@ GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone kept, real near
             strewn = i * kRayStride + kRayOffset - whole * task.count;
         }
         int turn = task.all ? strewn : i;
-        real2 at = task.strip ? pointOfLight(noise, turn, kStripRays) : pointOfLight(noise, turn, task.count);
-        real2 place = pointOfTexel(noise, i) * real2(task.side, task.strip ? kStripLong : task.side);
-        real2 from = task.way * place.x + real2(-task.way.y, task.way.x) * place.y;
-        LightRay ray = lightRay(point, cone, nearest, from, at);
-        real fall = real(0.0);
+        real2 at = pointOfLight(noise, turn, task.count);
+        LightRay ray = lightRay(point, cone, nearest, pointOfTexel(noise, i) * task.side, at);
+        bool reaches = false;
         if (ray.faces) {
             RayEnd end = followRay(point, f, ray);
-            fall = end.fall;
+            reaches = !end.blocked;
             steps += end.steps;
             cut = cut || end.steps >= kRaySteps;
         }
-        if (GNOMON_RECOMPUTES) { // where the ray began
-            from = ray.on_map.first - point.texel;
-        }
-        bool reaches = fall < real(0.0);
         lit += reaches ? real(1.0) : real(0.0);
-        falls += max(fall, real(0.0));
-        starts = starts + from;
-        starts_lit = starts_lit + (reaches ? from : real2(real(0.0)));
         ++i;
         strewn += kRayStride;
         strewn -= strewn >= task.count ? task.count : 0;
         agree = lit == real(0.0) || lit == real(i);
         cut = cut || (steps >= kPixelSteps && i < task.count && i >= kRaysToAgree);
     } while (i < task.count && !(agree && !task.all && i >= kRaysToAgree) && !(steps >= kPixelSteps && i >= kRaysToAgree));
-    real n = real(i);
     RaysFound found;
-    found.lit = lit / n;
+    found.lit = lit / real(i);
     found.cut = cut;
-    found.fall = falls / max(n - lit, real(1.0));
-    found.to_lit = starts_lit / max(lit, real(1.0)) - starts / n;
     return found;
-}
-
-// How sure it is that rays which are blocked start on one side of a straight edge: 1; all around: 0. An edge along the
-// first side of what they start in leaves a slab of starts in light, whose middle is `reach` from the middle of all.
-GN_FN real straightness(RaysFound found, real side, real reach)
-{
-    real apart = real(0.5) * side * (real(1.0) - found.lit);
-    return reach / max(apart, real(0.01));
-}
-
-// The starts of rays make a ramp of what is a step where the light is small or its blocker near. Rays tell how far off
-// that is, and so how wide the penumbra is, texels. A straight edge's ramp is narrowed to that about its middle, but to
-// no less than `narrowest`. Around leaves and wires rays are blocked on all sides, and there the mean stays as it is.
-GN_FN real narrowed(RaysFound found, real straightness, real penumbra, real within, real narrowest)
-{
-    real steeper = (within + penumbra) / max(penumbra, narrowest);
-    real straight = clamp((straightness - kStraightFrom) / (kStraightTo - kStraightFrom), real(0.0), real(1.0));
-    real share = straight * clamp((kWideTo - penumbra) / (kWideTo - kWideFrom), real(0.0), real(1.0));
-    return clamp(real(0.5) + (found.lit - real(0.5)) * mix(real(1.0), steeper, share), real(0.0), real(1.0));
 }
 
 // In a penumbra few texels wide these are what is seen, whatever the rays; in a wide one it is the rays' noise.
@@ -377,49 +308,27 @@ GN_FN int rayCount(real spread)
     return int(wanted) / 2 * 2 + 1; // odd, see kRayStride
 }
 
-// How wide the penumbra of what rays found is, texels: `widest` is the light's disc where it is farthest from the
-// receiver, at depth `nearest`.
-GN_FN real penumbraWidth(MapPoint point, RaysFound found, real widest, real nearest)
-{
-    return widest * found.fall / max(point.depth - nearest, real(1e-9));
-}
-
 GN_FN real filterRaymarch(MapPoint point, FilterInput f)
 {
     RayCone cone = rayCone(point, f);
     Surroundings around = lookAround(point, f, cone, kStartsWithin, kRayEnd);
-    if (around.visibility >= real(0.0)) {
-        return GNOMON_SHOWS_RAYS ? kShowsDecided : around.visibility;
+    if (around.visibility >= real(0.0) || GNOMON_SETTLES) {
+        return GNOMON_SHOWS_RAYS && around.visibility >= real(0.0) ? kShowsDecided : around.visibility;
     }
     real spread = real(0.5) * (around.texels.z - around.texels.x + around.texels.w - around.texels.y);
     real widest = spread - kStartsWithin; // width of the light's disc, where it is farthest from the receiver
-    real within = widest < kWideTo ? kStartsWithin : real(1.0);
-    RayTask task =
-        taskInSquare(rayCount(spread), spread >= kWideFrom, f.stood > 0 ? kStartsAtRest : within);
-    real seen = real(0.0);
-    bool more = false;
-    do { // rays all around the receiver, and a second opinion on an edge: by a strip of the map along it
-        RaysFound found = traceRays(point, f, cone, around.nearest, task);
-        if (GNOMON_SHOWS_RAYS) {
-            return found.cut ? kShowsCeiling : kShowsRays;
+    if (widest < kWideTo) {
+        EdgeShare edge = edgeShare(point, f, cone);
+        if (isStraight(edge)) {
+            return GNOMON_SHOWS_RAYS ? kShowsDecided : edge.lit;
         }
-        // Across the strip alone: where it runs into a corner, light and dark lie behind each other.
-        real reach = task.strip ? dot(found.to_lit, task.way) : length(found.to_lit);
-        real straight = straightness(found, task.side, reach);
-        real share = task.strip ? clamp((straight - kStripFrom) / (kStripTo - kStripFrom), real(0.0), real(1.0)) : real(1.0);
-        real penumbra = penumbraWidth(point, found, widest, around.nearest);
-        real narrowest = task.strip ? kNarrowestInStrip : kNarrowest;
-        seen = mix(seen, narrowed(found, straight, penumbra, task.side, narrowest), share);
-        // Frames at rest find the edge's place together.
-        bool is_edge = found.lit > real(0.0) && found.lit < real(1.0) && straight > kEdgeFrom;
-        more = is_edge && !task.strip && widest < kWideTo && f.stood == 0;
-        task.count = kStripRays;
-        task.all = true;
-        task.way = found.to_lit / max(length(found.to_lit), real(1e-6));
-        task.side = kStripWide;
-        task.strip = true;
-    } while (more);
-    return seen;
+    }
+    RayTask task;
+    task.count = rayCount(spread);
+    task.all = spread >= kWideFrom;
+    task.side = f.stood > 0 ? kStartsAtRest : (widest < kWideTo ? kStartsWithin : real(1.0));
+    RaysFound found = traceRays(point, f, cone, around.nearest, task);
+    return GNOMON_SHOWS_RAYS ? (found.cut ? kShowsCeiling : kShowsRays) : found.lit;
 }
 
 GN_END

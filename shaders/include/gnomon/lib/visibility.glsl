@@ -226,8 +226,11 @@ GN_FN real viewVisibility(int filter_number, GpuView view, MapRows rows, MapPoin
         input_here.footprint_x = footprintOf(rows, point.texel, point.w, p, n, steps.right, steps.along);
         input_here.footprint_y = footprintOf(rows, point.texel, point.w, p, n, steps.below, steps.along);
     }
-    return lightenedVisibility(boundedVisibility(applyFilter(filter_number, point, input_here)), f.moments.lighten,
-                               f.moments.lighten_cut);
+    real seen = applyFilter(filter_number, point, input_here);
+    if (GNOMON_SETTLES && seen < real(0.0)) {
+        return seen;
+    }
+    return lightenedVisibility(boundedVisibility(seen), f.moments.lighten, f.moments.lighten_cut);
 }
 
 // The same without a screen: filterable maps are read at their finest level.
