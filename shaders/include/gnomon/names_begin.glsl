@@ -2,6 +2,8 @@
 // Written by tools/public_names.py: names of the library's shaders, which a host may have too.
 #define BiasRule gnomon_BiasRule
 #define ConeNoise gnomon_ConeNoise
+#define EdgeRows gnomon_EdgeRows
+#define EdgeShare gnomon_EdgeShare
 #define EncodeInput gnomon_EncodeInput
 #define FilterInput gnomon_FilterInput
 #define FootprintReads gnomon_FootprintReads
@@ -33,6 +35,7 @@
 #define Search gnomon_Search
 #define SmoothSurface gnomon_SmoothSurface
 #define Smoothie gnomon_Smoothie
+#define StepEnd gnomon_StepEnd
 #define Surroundings gnomon_Surroundings
 #define applyFilter gnomon_applyFilter
 #define applyMoments gnomon_applyMoments
@@ -78,8 +81,13 @@
 #define depthMetricStored gnomon_depthMetricStored
 #define depthToBytes gnomon_depthToBytes
 #define discPoint gnomon_discPoint
+#define discShare gnomon_discShare
 #define dotRow gnomon_dotRow
+#define edgeBeside gnomon_edgeBeside
+#define edgeCell gnomon_edgeCell
 #define edgeDistance gnomon_edgeDistance
+#define edgeLit gnomon_edgeLit
+#define edgeShare gnomon_edgeShare
 #define encodeEsm gnomon_encodeEsm
 #define encodeEvsm gnomon_encodeEvsm
 #define encodeLayer gnomon_encodeLayer
@@ -113,6 +121,7 @@
 #define filterVsm gnomon_filterVsm
 #define flatSurface gnomon_flatSurface
 #define followRay gnomon_followRay
+#define followStep gnomon_followStep
 #define footprintLevel gnomon_footprintLevel
 #define footprintOf gnomon_footprintOf
 #define footprintReads gnomon_footprintReads
@@ -141,6 +150,7 @@
 #define isLeft gnomon_isLeft
 #define isSameSurface gnomon_isSameSurface
 #define isSplitOff gnomon_isSplitOff
+#define isStraight gnomon_isStraight
 #define joined gnomon_joined
 #define joinedBlocks gnomon_joinedBlocks
 #define joinedMean gnomon_joinedMean
@@ -161,9 +171,11 @@
 #define kDepthSmoothies gnomon_kDepthSmoothies
 #define kDiscEnd gnomon_kDiscEnd
 #define kDiscPoints gnomon_kDiscPoints
-#define kEdgeFrom gnomon_kEdgeFrom
 #define kEdgeOn gnomon_kEdgeOn
+#define kEdgeReach gnomon_kEdgeReach
+#define kEdgeRun gnomon_kEdgeRun
 #define kFarthestNeighbour gnomon_kFarthestNeighbour
+#define kFewNarrowings gnomon_kFewNarrowings
 #define kFewViews gnomon_kFewViews
 #define kFlat gnomon_kFlat
 #define kGrazing gnomon_kGrazing
@@ -172,6 +184,7 @@
 #define kIdTestAny gnomon_kIdTestAny
 #define kIdTestNearest gnomon_kIdTestNearest
 #define kIdTestPriority gnomon_kIdTestPriority
+#define kLeastDisc gnomon_kLeastDisc
 #define kLeastHeight gnomon_kLeastHeight
 #define kLeastLastPivot gnomon_kLeastLastPivot
 #define kLeastLastPivot16 gnomon_kLeastLastPivot16
@@ -205,8 +218,6 @@
 #define kMostReads gnomon_kMostReads
 #define kMostSmoothieReach gnomon_kMostSmoothieReach
 #define kMostWarpOfTexel gnomon_kMostWarpOfTexel
-#define kNarrowest gnomon_kNarrowest
-#define kNarrowestInStrip gnomon_kNarrowestInStrip
 #define kNarrowings gnomon_kNarrowings
 #define kNearlyOne gnomon_kNearlyOne
 #define kNoLayerBegins gnomon_kNoLayerBegins
@@ -249,13 +260,7 @@
 #define kStartsWithin gnomon_kStartsWithin
 #define kSteepest gnomon_kSteepest
 #define kSteepestBias gnomon_kSteepestBias
-#define kStraightFrom gnomon_kStraightFrom
-#define kStraightTo gnomon_kStraightTo
-#define kStripFrom gnomon_kStripFrom
-#define kStripLong gnomon_kStripLong
-#define kStripRays gnomon_kStripRays
-#define kStripTo gnomon_kStripTo
-#define kStripWide gnomon_kStripWide
+#define kSureRun gnomon_kSureRun
 #define kTapReach gnomon_kTapReach
 #define kTinyVariance gnomon_kTinyVariance
 #define kVarianceOfRead gnomon_kVarianceOfRead
@@ -278,6 +283,7 @@
 #define lightSpread gnomon_lightSpread
 #define lightVisibility gnomon_lightVisibility
 #define lightenedVisibility gnomon_lightenedVisibility
+#define lineInStep gnomon_lineInStep
 #define lloydMean gnomon_lloydMean
 #define lloydSplit gnomon_lloydSplit
 #define lloydStart gnomon_lloydStart
@@ -305,7 +311,6 @@
 #define msmCoordinate gnomon_msmCoordinate
 #define msmOccluders gnomon_msmOccluders
 #define msmVisibility gnomon_msmVisibility
-#define narrowed gnomon_narrowed
 #define nearestOfFour gnomon_nearestOfFour
 #define nextShare gnomon_nextShare
 #define noLayer gnomon_noLayer
@@ -332,7 +337,6 @@
 #define pcfDisc gnomon_pcfDisc
 #define pcfPoints gnomon_pcfPoints
 #define pcfSeparable gnomon_pcfSeparable
-#define penumbraWidth gnomon_penumbraWidth
 #define pixelSteps gnomon_pixelSteps
 #define placeObject gnomon_placeObject
 #define planeDeviation gnomon_planeDeviation
@@ -381,11 +385,9 @@
 #define stepWeight gnomon_stepWeight
 #define steppedVisibility gnomon_steppedVisibility
 #define storedMetric gnomon_storedMetric
-#define straightness gnomon_straightness
 #define tapBlocks gnomon_tapBlocks
 #define tapOccluders gnomon_tapOccluders
 #define tapWeight gnomon_tapWeight
-#define taskInSquare gnomon_taskInSquare
 #define texelAt gnomon_texelAt
 #define texelBlocks gnomon_texelBlocks
 #define texelConfidence gnomon_texelConfidence

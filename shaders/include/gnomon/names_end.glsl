@@ -2,6 +2,8 @@
 // Written by tools/public_names.py: names of the library's shaders, which a host may have too.
 #undef BiasRule
 #undef ConeNoise
+#undef EdgeRows
+#undef EdgeShare
 #undef EncodeInput
 #undef FilterInput
 #undef FootprintReads
@@ -33,6 +35,7 @@
 #undef Search
 #undef SmoothSurface
 #undef Smoothie
+#undef StepEnd
 #undef Surroundings
 #undef applyFilter
 #undef applyMoments
@@ -78,8 +81,13 @@
 #undef depthMetricStored
 #undef depthToBytes
 #undef discPoint
+#undef discShare
 #undef dotRow
+#undef edgeBeside
+#undef edgeCell
 #undef edgeDistance
+#undef edgeLit
+#undef edgeShare
 #undef encodeEsm
 #undef encodeEvsm
 #undef encodeLayer
@@ -113,6 +121,7 @@
 #undef filterVsm
 #undef flatSurface
 #undef followRay
+#undef followStep
 #undef footprintLevel
 #undef footprintOf
 #undef footprintReads
@@ -141,6 +150,7 @@
 #undef isLeft
 #undef isSameSurface
 #undef isSplitOff
+#undef isStraight
 #undef joined
 #undef joinedBlocks
 #undef joinedMean
@@ -161,9 +171,11 @@
 #undef kDepthSmoothies
 #undef kDiscEnd
 #undef kDiscPoints
-#undef kEdgeFrom
 #undef kEdgeOn
+#undef kEdgeReach
+#undef kEdgeRun
 #undef kFarthestNeighbour
+#undef kFewNarrowings
 #undef kFewViews
 #undef kFlat
 #undef kGrazing
@@ -172,6 +184,7 @@
 #undef kIdTestAny
 #undef kIdTestNearest
 #undef kIdTestPriority
+#undef kLeastDisc
 #undef kLeastHeight
 #undef kLeastLastPivot
 #undef kLeastLastPivot16
@@ -205,8 +218,6 @@
 #undef kMostReads
 #undef kMostSmoothieReach
 #undef kMostWarpOfTexel
-#undef kNarrowest
-#undef kNarrowestInStrip
 #undef kNarrowings
 #undef kNearlyOne
 #undef kNoLayerBegins
@@ -249,13 +260,7 @@
 #undef kStartsWithin
 #undef kSteepest
 #undef kSteepestBias
-#undef kStraightFrom
-#undef kStraightTo
-#undef kStripFrom
-#undef kStripLong
-#undef kStripRays
-#undef kStripTo
-#undef kStripWide
+#undef kSureRun
 #undef kTapReach
 #undef kTinyVariance
 #undef kVarianceOfRead
@@ -278,6 +283,7 @@
 #undef lightSpread
 #undef lightVisibility
 #undef lightenedVisibility
+#undef lineInStep
 #undef lloydMean
 #undef lloydSplit
 #undef lloydStart
@@ -305,7 +311,6 @@
 #undef msmCoordinate
 #undef msmOccluders
 #undef msmVisibility
-#undef narrowed
 #undef nearestOfFour
 #undef nextShare
 #undef noLayer
@@ -332,7 +337,6 @@
 #undef pcfDisc
 #undef pcfPoints
 #undef pcfSeparable
-#undef penumbraWidth
 #undef pixelSteps
 #undef placeObject
 #undef planeDeviation
@@ -381,11 +385,9 @@
 #undef stepWeight
 #undef steppedVisibility
 #undef storedMetric
-#undef straightness
 #undef tapBlocks
 #undef tapOccluders
 #undef tapWeight
-#undef taskInSquare
 #undef texelAt
 #undef texelBlocks
 #undef texelConfidence
