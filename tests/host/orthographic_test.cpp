@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t kWidth = 160;
 constexpr std::uint32_t kHeight = 100;
-enum : std::uint32_t { kSun, kSpot, kLamp, kLights };
+enum : std::uint32_t { kTheSun, kTheSpot, kTheLamp, kLights };
 
 /// Closed, and outside is in front.
 scene::Primitive box(const glm::vec3& centre, const glm::vec3& half)
@@ -55,16 +55,16 @@ scene::Scene boxes()
     addMesh(scene, box({2, 1.5F, -3}, {0.4F, 1.5F, 0.8F}));
     addMesh(scene, box({4, 2.5F, 3}, {1.5F, 0.2F, 1}));
     scene.lights.resize(kLights);
-    scene.lights[kSun].intensity = 3.0F;
-    scene.lights[kSpot] = {.type = scene::LightType::spot, .intensity = 300.0F, .range_m = 40.0F};
-    scene.lights[kSpot].outer_cone_rad = 1.0F;
-    scene.lights[kLamp] = {.type = scene::LightType::point, .intensity = 200.0F, .range_m = 40.0F};
+    scene.lights[kTheSun].intensity = 3.0F;
+    scene.lights[kTheSpot] = {.type = scene::LightType::spot, .intensity = 300.0F, .range_m = 40.0F};
+    scene.lights[kTheSpot].outer_cone_rad = 1.0F;
+    scene.lights[kTheLamp] = {.type = scene::LightType::point, .intensity = 200.0F, .range_m = 40.0F};
     for (std::uint32_t i = 0; i < kLights; ++i) {
         scene::Node node;
         node.light = i;
         node.transform.translation = {0.7F, 9.0F, 1.3F};
         const glm::quat turn = glm::angleAxis(2.6F, glm::vec3(0, 1, 0));
-        node.transform.rotation = turn * glm::angleAxis(i == kSun ? -0.8F : -1.4F, glm::vec3(1, 0, 0));
+        node.transform.rotation = turn * glm::angleAxis(i == kTheSun ? -0.8F : -1.4F, glm::vec3(1, 0, 0));
         scene.nodes.push_back(node);
     }
     scene::finishScene(scene);
@@ -186,9 +186,9 @@ TEST_F(Orthographic, EveryPartitionAndFitIsTheTruth)
             }
         }
     }
-    EXPECT_GE(drawn[kSun], 14U);
-    EXPECT_GE(drawn[kSpot], 7U);
-    EXPECT_GE(drawn[kLamp], 3U);
+    EXPECT_GE(drawn[kTheSun], 14U);
+    EXPECT_GE(drawn[kTheSpot], 7U);
+    EXPECT_GE(drawn[kTheLamp], 3U);
 }
 
 TEST_F(Orthographic, EveryFilterIsTheTruth)
@@ -210,12 +210,12 @@ TEST_F(Orthographic, ConvergesAndSnaps)
     ShadowOptions shadow;
     shadow.technique.filter = Filter::hard;
     shadow.technique.soften = Soften::converge;
-    const std::optional<std::size_t> converged = wrongOf(shadow, kSun, 16);
+    const std::optional<std::size_t> converged = wrongOf(shadow, kTheSun, 16);
     ASSERT_TRUE(converged);
     EXPECT_LT(*converged, kEdges);
     shadow.technique.soften = Soften::none;
     shadow.technique.motion = Motion::snap;
-    const std::optional<std::size_t> snapped = wrongOf(shadow, kSun, 2);
+    const std::optional<std::size_t> snapped = wrongOf(shadow, kTheSun, 2);
     ASSERT_TRUE(snapped);
     EXPECT_LT(*snapped, 2 * kEdges);
 }

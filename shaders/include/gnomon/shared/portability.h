@@ -25,8 +25,8 @@
         using real2 = glm::vec<2, real>;                                                                               \
         using real3 = glm::vec<3, real>;                                                                               \
         using real4 = glm::vec<4, real>;                                                                               \
-        using glm::abs, glm::ceil, glm::clamp, glm::cross, glm::dot, glm::exp, glm::exp2, glm::floor, glm::fract,      \
-            glm::inversesqrt, glm::length, glm::log, glm::log2, glm::pow, glm::max, glm::min, glm::mix,                \
+        using glm::abs, glm::asin, glm::ceil, glm::clamp, glm::cross, glm::dot, glm::exp, glm::exp2, glm::floor,       \
+            glm::fract, glm::inversesqrt, glm::length, glm::log, glm::log2, glm::pow, glm::max, glm::min, glm::mix,    \
             glm::normalize, glm::sign, glm::sin, glm::cos, glm::smoothstep, glm::sqrt, glm::step;
 #define GN_END                                                                                                         \
     }                                                                                                                  \
