@@ -30,6 +30,23 @@ const ChoiceValue& valueOf(std::string_view choice, std::string_view name)
     return *findChoice(choice, name);
 }
 
+TEST(List, AnswersToNamesWithWhatTheyAre)
+{
+    const std::string overview = list({}).out;
+    for (const ChoiceValue& row : choiceValues()) {
+        EXPECT_NE(overview.find(row.summary), std::string::npos) << row.name;
+    }
+    const std::string settings = list({"settings"}).out;
+    for (const app::Setting& setting : app::settingTable()) {
+        EXPECT_NE(settings.find("\n  " + std::string(setting.key) + " "), std::string::npos) << setting.key;
+    }
+    const std::string both = list({"smoothies"}).out;
+    for (const char* part :
+         {"a value of filter", "a value of soften", "docs/techniques/smoothies.md", "smoothies.reach"}) {
+        EXPECT_NE(both.find(part), std::string::npos) << part;
+    }
+}
+
 TEST(List, KnowsWhichSettingsAreAValuesOwn)
 {
     const auto keys = [](const ChoiceValue& value) {

@@ -16,6 +16,7 @@ namespace gnomon {
 
 /// The choices, by their places in kChoiceNames.
 enum class Choice : std::uint8_t { light, partition, fit, filter, soften, motion };
+/// Their names, as choiceValues() has them.
 inline constexpr std::array<std::string_view, 6> kChoiceNames{"light",  "partition", "fit",
                                                               "filter", "soften",    "motion"};
 

@@ -59,9 +59,14 @@ GN_FN StepEnd followStep(MapPoint point, FilterInput f, EdgeRows rows, real from
     bool more = true;
     do {
         end.run += real(1.0);
-        real column = from + way * end.run;
-        bool low = edgeLit(point, f, edgeCell(rows, column, across - real(1.0)), false);
-        bool high = edgeLit(point, f, edgeCell(rows, column, across), false);
+        bool low = false;
+        bool high = false;
+        real row = real(-1.0);
+        do { // a loop, so that a texel's comparison is compiled once
+            low = high;
+            high = edgeLit(point, f, edgeCell(rows, from + way * end.run, across + row), false);
+            row += real(1.0);
+        } while (row < real(0.5));
         more = low == low_lit && high != low_lit && end.run < real(kEdgeRun);
         real turn = low == low_lit ? real(0.5) : real(-0.5);
         end.turn = low == high ? turn : real(0.0);
@@ -73,6 +78,7 @@ GN_FN StepEnd followStep(MapPoint point, FilterInput f, EdgeRows rows, real from
 struct EdgeShare {
     real lit;
     real apart; // the receiver's distance from the edge, texels
+    bool here;  // whether the receiver's own texel lights it
     real run;   // columns of its step; 0: there is no edge
     bool leans; // the stair goes on to different sides at the step's ends, as a line's does
 };
@@ -96,21 +102,25 @@ GN_FN real2 lineInStep(real along, real run, real2 turns)
     return real2(slope * (along - middle), slope);
 }
 
-// The edge on one side of the receiver, `way`, across the rows. `here`: whether its own texel lights it.
-GN_FN EdgeShare edgeBeside(MapPoint point, FilterInput f, RayCone cone, EdgeRows rows, bool here, real way)
+// The edge on one side of the receiver, `way`, across the rows.
+GN_FN EdgeShare edgeBeside(MapPoint point, FilterInput f, RayCone cone, EdgeRows rows, real way)
 {
+    real2 cell = floor(rows.at);
+    real k = real(-1.0);
+    bool here = false;
+    bool differs = false;
+    do { // from the receiver's own texel on
+        k += real(1.0);
+        bool lit = edgeLit(point, f, edgeCell(rows, cell.x, cell.y + way * k), true);
+        here = k > real(0.0) ? here : lit;
+        differs = lit != here;
+    } while (!differs && k < real(kEdgeReach));
     EdgeShare found;
+    found.here = here;
     found.lit = here ? real(1.0) : real(0.0);
     found.apart = real(1e9);
     found.run = real(0.0);
     found.leans = false;
-    real2 cell = floor(rows.at);
-    real k = real(0.0);
-    bool differs = false;
-    do {
-        k += real(1.0);
-        differs = edgeLit(point, f, edgeCell(rows, cell.x, cell.y + way * k), true) != here;
-    } while (!differs && k < real(kEdgeReach));
     if (differs) {
         real across = way < real(0.0) ? cell.y - k + real(1.0) : cell.y + k;
         bool low_lit = (way < real(0.0)) != here;
@@ -134,8 +144,8 @@ GN_FN EdgeShare edgeBeside(MapPoint point, FilterInput f, RayCone cone, EdgeRows
         real caster = mapTexel(edgeCell(rows, cell.x, low_lit ? across : across - real(1.0)), f.layer, f.part);
         real s = rayLength(point.depth - caster, cone.rise, cone.start.z, cone.axis.z, kRayEnd);
         real2 centre = coneTexel(cone, s, real2(real(0.0)));
-        real2 radius = real2(dot(coneTexel(cone, s, real2(real(1.0), real(0.0))) - centre, normal),
-                             dot(coneTexel(cone, s, real2(real(0.0), real(1.0))) - centre, normal));
+        real3 across_disc = real3(normal.x, normal.y, -dot(centre, normal)) * (s / (cone.start.z + cone.axis.z * s));
+        real2 radius = real2(dot(cone.side_x, across_disc), dot(cone.side_y, across_disc));
         real beyond = (rows.at.y - across - line.x) * to_lit.y + dot(centre - point.texel, normal);
         found.lit = discShare(beyond / max(length(radius), kLeastDisc));
         found.apart = abs(beyond);
@@ -147,8 +157,8 @@ GN_FN EdgeShare edgeBeside(MapPoint point, FilterInput f, RayCone cone, EdgeRows
 // longer, because there the line is known better.
 GN_FN EdgeShare edgeShare(MapPoint point, FilterInput f, RayCone cone)
 {
-    bool here = edgeLit(point, f, floor(point.texel), true);
     EdgeShare found;
+    found.here = false;
     found.lit = real(0.0);
     found.apart = real(0.0);
     found.run = real(-1.0);
@@ -160,8 +170,8 @@ GN_FN EdgeShare edgeShare(MapPoint point, FilterInput f, RayCone cone)
         rows.along_x = side < 2;
         rows.at = rows.along_x ? point.texel : real2(point.texel.y, point.texel.x);
         bool second = (side & 1) == 1;
-        EdgeShare edge = edgeBeside(point, f, cone, rows, here, second ? real(1.0) : real(-1.0));
-        real both = first.lit + edge.lit - (here ? real(1.0) : real(0.0));
+        EdgeShare edge = edgeBeside(point, f, cone, rows, second ? real(1.0) : real(-1.0));
+        real both = first.lit + edge.lit - (edge.here ? real(1.0) : real(0.0));
         if (second) {
             if (first.apart < edge.apart) {
                 edge = first;
