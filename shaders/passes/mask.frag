@@ -206,7 +206,7 @@ void main()
         GnomonTileLight one = nextLight(left);
         vec4 v = lightVisibility(one.light, p, n, s, vec3(1.0), centre, h.w);
 #ifdef GNOMON_MAY_LEAVE
-        if (kSettles && lookup_left) {
+        if (kSettles && lookup_left && (kTileChannels == 0u || one.weight > 0.0)) {
             discard;
         }
 #endif

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// mask-size=half: a layer of the mask from one of half its size. A pixel that finds nothing there that holds for it is
-// left out, and by the depth that this pass draws with told from those that are done. mask.frag draws it then.
+// mask-size=half: a layer of the mask from one of half its size. Pixels that find nothing there that holds for them are
+// discarded. The depth image tells them from those that are done, and mask.frag draws them.
 #extension GL_GOOGLE_include_directive : require
 #include "gnomon/lib/mask_numbers.glsl"
 #include "gnomon/shared/gpu_structs.h"

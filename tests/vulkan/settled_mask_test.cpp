@@ -7,10 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace gnomon::test {
@@ -46,6 +47,33 @@ std::vector<std::byte> draw(PlannedScene& scene, std::span<const Light> lights, 
     Planner planner(options);
     const Frame frame = scene.frameOf(lights);
     return scene.draw(drawing, planner.plan(frame));
+}
+
+// A pixel that faces away is dark, though blocks do not settle it, and frames that converge keep it dark.
+TEST(SettledMask, KeepsDarkWhatFacesAwayWhereFramesConverge)
+{
+    PlannedScene scene(gpu(), kScreen);
+    scene.remakeViews(kScreen, true, true);
+    const std::vector<Light> lights = sunsAndSpots(2);
+    const auto drawn = [&](const char* line) {
+        Drawing drawing(gpu(), scene.mesh());
+        Planner planner(optionsFrom(line));
+        std::vector<std::byte> mask;
+        for (int i = 0; i < 2; ++i) {
+            const Frame frame = scene.frameOf(lights);
+            mask = scene.draw(drawing, planner.plan(frame));
+        }
+        return mask;
+    };
+    const std::vector<std::byte> alone = drawn("filter=raymarch map-size=64");
+    const std::vector<std::byte> joined = drawn("filter=raymarch soften=converge map-size=64");
+    ASSERT_EQ(alone.size(), joined.size());
+    std::size_t apart = 0;
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        apart += alone[i] == std::byte{0} && joined[i] == std::byte{255} ? 1 : 0;
+    }
+    EXPECT_EQ(apart, 0U);
+    expectSilence(gpu());
 }
 
 // Draws of one layer leave pixels at the same places, and none may take those of another for its own.

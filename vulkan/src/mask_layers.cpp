@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mask pass's recording of a layer. Most filters are drawn at every pixel. Those that have blocks are drawn where
-// blocks settle the pixel, and then where they do not: few pixels, which a device has together then. MaskSize::half
-// takes three steps. One pixel of each 2 x 2 is drawn to an image of half the size, that is spread over the mask, and
-// the remaining pixels are drawn.
+// blocks settle the pixel, and then at the few pixels where they do not. MaskSize::half takes three steps. One pixel of
+// each 2 x 2 is drawn to an image of half the size, that is spread over the mask, and the remaining pixels are drawn.
 #include "mask_pass.h"
 
 #include "barriers.h"

@@ -323,6 +323,10 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
                 MapRows rows = rowsAt(read, r.p);
                 MapPoint point = projectReceiver(rows, bias, r.p, r.n);
                 float here = viewVisibility(GNOMON_FILTER_NUMBER, read, rows, point, f, r.steps, r.p, r.n);
+#ifdef GNOMON_MAY_LEAVE
+                lookup_left = lookup_left || (here < 0.0 && share > 0.0);
+                here = max(here, 0.0); // the pixel may be decided by other means
+#endif
 #ifdef GNOMON_ASKS_GRAZED
                 if (GNOMON_SMOOTH && GNOMON_COMPARES_DEPTHS(GNOMON_FILTER_NUMBER) && GNOMON_AUTOMATIC_BIAS && r.grazed.sine > 0.0) {
                     here = min(here, grazedVisibility(read, rows, point.texel_depth, bias, f, r.grazed.p, r.grazed.sine));
@@ -335,9 +339,6 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
                     here *= tint.a;
                     colour = GNOMON_FEW_VIEWS == 1 ? (share > 0.0 ? tinted : colour) : colour * (1.0 - share) + tinted * share;
                 }
-#endif
-#ifdef GNOMON_MAY_LEAVE
-                lookup_left = lookup_left || (here < 0.0 && share > 0.0);
 #endif
                 // The first view's value is taken exactly, which mix() does not promise.
                 seen = GNOMON_FEW_VIEWS == 1 ? (share > 0.0 ? here : seen) : seen * (1.0 - share) + here * share;

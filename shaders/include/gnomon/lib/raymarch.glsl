@@ -38,13 +38,13 @@ GN_CONST int kRaySteps = 256;
 GN_CONST real kStartsWithin = real(1.5);
 // The square where frames are averaged whose maps lie a part of a texel apart: these frames find the edge's place.
 GN_CONST real kStartsAtRest = real(0.5);
-// Penumbrae in texels: up to the first a few rays may do if they agree, and from the second on lines along edges are not
-// tried.
+// Texels: where rays spread less than the first, with the square that they start in, a few may do if they agree. Where
+// the light's disc is as wide as the second, lines along edges are not tried.
 GN_CONST real kWideFrom = real(3.0);
 GN_CONST real kWideTo = real(6.0);
 
-// A pass that shows how rays fared has one of these instead of visibility: what blocks decided without a ray; as many
-// rays as wanted; fewer, or some that ended after kRaySteps.
+// A pass that shows how rays fared has one of these instead of visibility: blocks or a line along an edge decided without
+// a ray; as many rays as wanted; fewer, or some that ended after kRaySteps.
 #ifndef GNOMON_SHOWS_RAYS
 #define GNOMON_SHOWS_RAYS false
 #endif
@@ -300,7 +300,7 @@ GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone kept, real near
     return found;
 }
 
-// In a penumbra few texels wide these are what is seen, whatever the rays; in a wide one it is the rays' noise.
+// Few rays do where the penumbra is few texels wide, because texels are seen there. In a wide one the rays' noise is.
 // `spread`: texels that the rays may lead over.
 GN_FN int rayCount(real spread)
 {

@@ -204,7 +204,7 @@ GN_FN real grazedVisibility(GpuView view, MapRows rows, real texel_depth, BiasRu
     return far < real(0.999) ? far : step(min(m, real(1.0)) - bias, between);
 }
 
-// The visibility of a receiver inside the view. `rows`: rowsAt() its place; `point`: its projectReceiver(); `p`:
+// The visibility of a receiver inside the view; with GNOMON_SETTLES below 0 where blocks do not settle it. `rows`: rowsAt() its place; `point`: its projectReceiver(); `p`:
 // eye-relative; `n`: its unit geometric normal. Fills in f.layer, the view's members and the footprint, which is made
 // from `steps` (pixelSteps()) where f.moments.sampling needs it.
 GN_FN real viewVisibility(int filter_number, GpuView view, MapRows rows, MapPoint point, FilterInput f,
