@@ -86,6 +86,7 @@
 #define edgeBeside gnomon_edgeBeside
 #define edgeCell gnomon_edgeCell
 #define edgeDistance gnomon_edgeDistance
+#define edgeInside gnomon_edgeInside
 #define edgeLit gnomon_edgeLit
 #define edgeShare gnomon_edgeShare
 #define encodeEsm gnomon_encodeEsm
@@ -150,7 +151,6 @@
 #define isLeft gnomon_isLeft
 #define isSameSurface gnomon_isSameSurface
 #define isSplitOff gnomon_isSplitOff
-#define isStraight gnomon_isStraight
 #define joined gnomon_joined
 #define joinedBlocks gnomon_joinedBlocks
 #define joinedMean gnomon_joinedMean
@@ -284,6 +284,7 @@
 #define lightVisibility gnomon_lightVisibility
 #define lightenedVisibility gnomon_lightenedVisibility
 #define lineInStep gnomon_lineInStep
+#define linesSuffice gnomon_linesSuffice
 #define lloydMean gnomon_lloydMean
 #define lloydSplit gnomon_lloydSplit
 #define lloydStart gnomon_lloydStart

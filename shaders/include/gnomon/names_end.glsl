@@ -86,6 +86,7 @@
 #undef edgeBeside
 #undef edgeCell
 #undef edgeDistance
+#undef edgeInside
 #undef edgeLit
 #undef edgeShare
 #undef encodeEsm
@@ -150,7 +151,6 @@
 #undef isLeft
 #undef isSameSurface
 #undef isSplitOff
-#undef isStraight
 #undef joined
 #undef joinedBlocks
 #undef joinedMean
@@ -284,6 +284,7 @@
 #undef lightVisibility
 #undef lightenedVisibility
 #undef lineInStep
+#undef linesSuffice
 #undef lloydMean
 #undef lloydSplit
 #undef lloydStart

@@ -194,10 +194,11 @@ GN_FN EdgeShare edgeShare(MapPoint point, FilterInput f, RayCone cone)
     return found;
 }
 
-// Is there a straight edge near the receiver? Leaves and wires have stairs with steps of every length.
-GN_FN bool isStraight(EdgeShare edge)
+// Do lines suffice? They do where no edge is near the receiver, or a straight one. Leaves and wires have stairs with steps
+// of every length.
+GN_FN bool linesSuffice(EdgeShare edge)
 {
-    return edge.leans || edge.run >= kSureRun;
+    return edge.run == real(0.0) || edge.leans || edge.run >= kSureRun;
 }
 
 GN_END

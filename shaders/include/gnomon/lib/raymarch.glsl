@@ -319,7 +319,7 @@ GN_FN real filterRaymarch(MapPoint point, FilterInput f)
     real widest = spread - kStartsWithin; // width of the light's disc, where it is farthest from the receiver
     if (widest < kWideTo) {
         EdgeShare edge = edgeShare(point, f, cone);
-        if (isStraight(edge)) {
+        if (linesSuffice(edge)) {
             return GNOMON_SHOWS_RAYS ? kShowsDecided : edge.lit;
         }
     }
