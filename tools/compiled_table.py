@@ -26,10 +26,12 @@ def rows(stages):
         fitting = [name for name in stages if name.startswith(prefix) and all(word in name for word in words)]
         return min(fitting, key=len, default=None)
     for name in FILTERS:
-        for variant, label in (("_orthographic", "one sun, one map"), ("", "one light, one map")):
-            yield f"`{name}`, {label}", first(f"mask_{name}{variant}.frag to R8;", "views 1")
-        for variant, label in (("_orthographic", "any suns"), ("", "any lights")):
-            yield f"`{name}`, {label}", first(f"mask_{name}{variant}.frag to RGBA8") if name not in ("id", "depth_id") else None
+        for words, label in ((["orthographic 1"], "one sun, one map"), (["orthographic 1", "settles 1"], "what blocks settle"),
+                             ([], "one light, one map")):
+            yield f"`{name}`, {label}", first(f"mask_{name}.frag to R8", "views 1", *words)
+        for words, label in ((["orthographic 1"], "any suns"), ([], "any lights")):
+            found = first(f"mask_{name}.frag to RGBA8", *words)
+            yield f"`{name}`, {label}", found if name not in ("id", "depth_id") else None
     for name in OTHERS:
         found = name if name in stages else first(name)
         yield f"`{name}`", found
