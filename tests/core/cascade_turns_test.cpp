@@ -115,7 +115,7 @@ void walkRandomly(const Technique& technique, std::uint64_t seeds, WalkOf& walk)
     }
 }
 
-/// What lies nearer or farther along the light than the receivers of before is not covered, whatever it lies under.
+/// A map does not cover receivers that lie nearer or farther along the light than those of before.
 TEST(ViewGround, CoversTheDepthsOfItsReceiversAlone)
 {
     const test::FitStage made(test::levelGround(0.2));

@@ -92,7 +92,7 @@ struct Walk {
     std::uint64_t most = 0;
 };
 
-/// Of a view with a kept copy, what stands still is listed first, and counted.
+/// A view with a kept copy lists what stands still first, and counts it.
 void expectStillFirst(const Plan& plan, const ObjectSet& set)
 {
     for (const View& view : plan.views) {

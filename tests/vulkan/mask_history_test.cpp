@@ -24,7 +24,7 @@ Plan planOf(const glm::dvec2& jitter_px)
     return plan;
 }
 
-/// Of a camera that stands, each pixel is where it was, whatever jitter the two frames have.
+/// While the camera stands each pixel is where it was, whatever jitter the two frames have.
 TEST(MaskHistory, FindsAPixelWhereItWasWhateverTheJitter)
 {
     NullDriver driver;

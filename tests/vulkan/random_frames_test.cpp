@@ -127,7 +127,7 @@ protected:
             const Tile& tile = view.place.tile;
             const auto x = gpu().read(a, tile.layer, texelBytes(a.format), aspect);
             const auto y = gpu().read(b, tile.layer, texelBytes(b.format), aspect);
-            // Of texels that two maps share, the other half may be nobody's.
+            // Two maps may share a texel, whose other half may be nobody's.
             const std::size_t half = view.place.part == TexelPart::second ? 1 : 0;
             for (std::size_t row = tile.y; row < tile.y + tile.height; ++row) {
                 for (std::size_t i = tile.x * bytes; i < (tile.x + tile.width) * bytes; ++i) {

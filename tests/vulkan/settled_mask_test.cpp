@@ -21,7 +21,7 @@ using vulkan::MaskMarks;
 
 constexpr VkExtent2D kScreen{161, 93};
 
-/// What the marks' format keeps of a depth.
+/// A depth as the marks' format keeps it.
 int codeOf(const VkViewport& viewport)
 {
     EXPECT_EQ(viewport.minDepth, viewport.maxDepth);

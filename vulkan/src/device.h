@@ -229,7 +229,7 @@ public:
     DeviceBuffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, const char* purpose);
 };
 
-/// Of one of the device's modules.
+/// For one of the device's modules.
 [[nodiscard]] ShaderModule makeShader(Device& device, std::span<const std::uint32_t> spirv);
 
 } // namespace gnomon::vulkan

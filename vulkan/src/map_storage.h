@@ -23,7 +23,7 @@ struct MapStorage {
     }
 };
 
-/// What a pass asks of its callback beside MapPass::formats.
+/// The wishes of a pass for its callback beside MapPass::formats.
 [[nodiscard]] inline ClassicFormats classicFormats(const MapPass& pass)
 {
     return pass.classic != nullptr ? pass.classic->formats : ClassicFormats{};

@@ -140,7 +140,7 @@ private:
     void fill(Slot& slot, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps);
     void recordLayer(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target,
                      std::uint32_t layer, DrawnAs as);
-    /// Of the layer's draws that begin as `first` this part.
+    /// Records this part of the layer's draws that begin as `first`.
     void recordDraws(VkCommandBuffer commands, const Plan& plan, const Slot& slot, std::uint32_t layer, DrawnAs first,
                      DrawnAs as);
     void recordSettled(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target,
