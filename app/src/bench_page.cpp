@@ -231,6 +231,7 @@ std::string benchPage(const Json& result)
     const std::vector<std::string> whole = techniqueNames(result.at("results"));
     const std::string common = commonParts(whole);
     std::vector<std::string> names;
+    names.reserve(whole.size());
     for (const std::string& name : whole) {
         names.push_back(withoutParts(name, common));
     }

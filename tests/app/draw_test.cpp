@@ -238,7 +238,7 @@ TEST(DebugViews, RaysSaysHowManyThereAreAndWhereTheyCameToTheirCeiling)
         EXPECT_LE(ceiling, rays);
         return rays;
     };
-    const double narrow = shares("0.5");
+    const double narrow = shares("1");
     EXPECT_GT(narrow, 0.0);
     EXPECT_GT(shares("8"), narrow) << "a wider light has wider penumbrae";
 }
