@@ -86,6 +86,28 @@ constexpr std::array kRules{
     ChoiceRule{Choice::filter, choiceNumber(Filter::volumes), Choice::soften,
                choiceBits(Soften::smoothies, Soften::converge), kRefuses,
                "volumes has no maps, which smoothies and converge work on; it needs soften none or blur"},
+    ChoiceRule{Choice::partition, choiceNumber(Partition::virtual_pages), Choice::light,
+               choiceBits(LightType::directional), kNeeds,
+               "virtual has its pages on a grid across parallel rays; a light with a place needs another partition, or "
+               "auto"},
+    ChoiceRule{
+        Choice::partition, choiceNumber(Partition::virtual_pages), Choice::fit,
+        choiceBits(Fit::uniform, Fit::automatic), kNeeds,
+        "virtual has squares of one grid for pages, which no fit could shape; it needs fit uniform or auto, which "
+        "is uniform then"},
+    ChoiceRule{Choice::partition, choiceNumber(Partition::virtual_pages), Choice::filter,
+               choiceBits(Filter::hard, Filter::pcf, Filter::pcss, Filter::raymarch, Filter::automatic), kNeeds,
+               "virtual keeps depths in pages with narrow borders, which have no room for what is averaged or widened "
+               "beside them; it needs filter hard, pcf, pcss, raymarch or auto"},
+    ChoiceRule{
+        Choice::partition, choiceNumber(Partition::virtual_pages), Choice::motion,
+        choiceBits(Motion::free, Motion::snap), kNeeds,
+        "virtual has pages that stand still by themselves, and those of two positions of a sun are not the same; "
+        "it needs motion free or snap"},
+    ChoiceRule{Choice::partition, choiceNumber(Partition::virtual_pages), Choice::soften,
+               choiceBits(Soften::none, Soften::blur), kNeeds,
+               "virtual holds its pages still, which converge moves in each frame, and has no room beside them for "
+               "smoothies; it needs soften none or blur"},
     ChoiceRule{Choice::soften, choiceNumber(Soften::converge), Choice::motion, choiceBits(Motion::free), kNeeds,
                "converge moves its maps in each frame, so nobody can hold them still; it needs motion free"},
 };

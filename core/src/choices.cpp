@@ -62,6 +62,12 @@ constexpr std::array kValues{
                 "as many frustums as what is seen asks for, each with a map of its own size", kForsyth},
     ChoiceValue{kPartition, "auto", number(Partition::automatic),
                 "single or cascades, whichever is predicted to err less; cube of a point light", kDense},
+    ChoiceValue{
+        kPartition, "virtual", number(Partition::virtual_pages),
+        "pages of a grid that stands still, finest where the picture has edges of shadows",
+        "R. Fernando, S. Fernandez, K. Bala, D. P. Greenberg, Adaptive Shadow Maps, 2001; A. Lefohn, S. Sengupta, "
+        "J. Owens, Resolution-Matched Shadow Maps, 2007; M. Giegl, M. Wimmer, Fitted Virtual Shadow Maps, 2007; "
+        "O. Olsson et al., Efficient Virtual Shadow Maps for Many Lights, 2014"},
 
     ChoiceValue{kFit, "uniform", number(Fit::uniform), "the light-space box of what matters", kMarinescu},
     ChoiceValue{kFit, "lispsm", number(Fit::lispsm), "perspective perpendicular to the light",

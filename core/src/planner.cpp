@@ -206,7 +206,7 @@ bool Planner::Impl::repeats(const Frame& frame) const
 {
     return settled && !spoilt && !frame.cut && last_frame.holds(frame) &&
            std::ranges::none_of(sights.setups(), [](const Setup& setup) {
-               return setup.recipe.converges() ||
+               return setup.recipe.converges() || setup.recipe.hasPages() ||
                       (setup.recipe.motion != nullptr && setup.recipe.motion->stepping != Stepping::none);
            });
 }

@@ -62,7 +62,7 @@ struct Recipe {
     /// Its fit warps maps by a rule, which is held against no warp.
     [[nodiscard]] bool warps() const
     {
-        return fit != nullptr && fit != fitUniform && fit != fitScene && !steady() && !grows();
+        return fit != nullptr && fit != fitUniform && fit != fitScene && !steady() && !grows() && !hasPages();
     }
     /// It also finds out how a light is divided (partition auto).
     [[nodiscard]] bool choosesPartition() const { return options().technique.partition == Partition::automatic; }
@@ -74,12 +74,14 @@ struct Recipe {
     }
     /// Each light's frustums depend on what is seen (MultiPartition).
     [[nodiscard]] bool grows() const { return partition != nullptr && partition->grows; }
+    /// Each light has pages (VirtualPartition).
+    [[nodiscard]] bool hasPages() const { return partition != nullptr && partition->pages; }
     /// It also finds out how many texels are of use (map-size auto).
     [[nodiscard]] bool sizesMap() const { return !options().map_size && !steady(); }
     /// AutoChooser decides for it.
     [[nodiscard]] bool predicts() const
     {
-        return hasMaps() && !grows() && (searchesWarp() || choosesPartition() || sizesMap());
+        return hasMaps() && !grows() && !hasPages() && (searchesWarp() || choosesPartition() || sizesMap());
     }
 
 private:

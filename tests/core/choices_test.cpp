@@ -25,7 +25,7 @@ TEST(Choices, NamesAreUniqueAndRowsComplete)
     }
     EXPECT_EQ(next_value,
               (std::map<std::string_view, unsigned>{
-                  {"light", 3}, {"partition", 7}, {"fit", 7}, {"filter", 14}, {"soften", 4}, {"motion", 6}}));
+                  {"light", 3}, {"partition", 8}, {"fit", 7}, {"filter", 14}, {"soften", 4}, {"motion", 6}}));
 }
 
 TEST(Choices, NamesRoundTrip)
@@ -96,6 +96,11 @@ TEST(Choices, APointLightGoesWithWhatGoesAroundAndCubeWithNoSun)
         const bool around = partition.name == "cube" || partition.name == "paraboloid" || partition.name == "multi" ||
                             partition.name == "auto";
         EXPECT_EQ(refusal(LightType::point, technique), around ? std::nullopt : std::optional(choiceRules()[0].reason));
+        if (partition.name == "virtual") {
+            EXPECT_EQ(refusal(LightType::directional, technique), std::nullopt);
+            EXPECT_TRUE(refusal(LightType::spot, technique)->starts_with("virtual has its pages on a grid"));
+            continue;
+        }
         for (const LightType other : {LightType::directional, LightType::spot})
             EXPECT_EQ(refusal(other, technique), partition.name == "cube" && other == LightType::directional
                                                      ? std::optional(choiceRules()[1].reason)

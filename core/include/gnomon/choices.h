@@ -19,7 +19,7 @@ namespace gnomon {
 enum class LightType : std::uint8_t { directional, spot, point };
 /// How receivers are divided among frustums. automatic: the planner chooses partition and fit for each light and frame,
 /// and resolve() chooses the filter by quality (docs/techniques/auto.md).
-enum class Partition : std::uint8_t { single, cascades, sdsm, cube, paraboloid, multi, automatic };
+enum class Partition : std::uint8_t { single, cascades, sdsm, cube, paraboloid, multi, automatic, virtual_pages };
 /// How a frustum's projection is shaped.
 enum class Fit : std::uint8_t { uniform, lispsm, lispsm_simple, tsm, psm, scene, automatic };
 /// The step that softens the mask on the screen.

@@ -94,6 +94,27 @@ struct LightExtent {
 /// objects, not empty. Precondition: the light's numbers are finite and not negative. For a directional light, zeros.
 [[nodiscard]] GNOMON_API LightExtent extentOf(const Light& light, const Aabb& scene_bounds_ws);
 
+/// A cell of a picture, as partition virtual asks for it: one of its points, and how much of it is the edge of a
+/// shadow.
+struct SeenCell {
+    glm::vec2 place_px{0.0F}; // the point's pixel from the picture's top left corner; a pixel's middle is at 0.5
+    float depth = 0.0F;       // as the depth buffer holds it there
+    /// How much a finer map is worth to the cell: the sum over its pixels of the squared difference in visibility from
+    /// one pixel to the next. A sharp edge across a cell of 8 x 8 pixels has about 8. Less than 0: nothing is to be
+    /// seen in the cell.
+    float edge = -1.0F;
+};
+
+/// The cells of an earlier picture for one light, from which partition virtual finds the next one's pages. A host makes
+/// them from depth and mask of any frame before; the newer, the better.
+struct PageRequests {
+    std::uint32_t light_key = 0; // Light::key
+    /// clipFromWorld() of the camera of that picture.
+    glm::dmat4 clip_from_world{1.0};
+    glm::uvec2 size_px{1};           // that picture's size
+    std::span<const SeenCell> cells; // in any order; kept by the host
+};
+
 /// All that planning asks of a host.
 struct Frame {
     std::uint64_t index = 0;            // counted by the host; the plan has it as well
@@ -116,6 +137,9 @@ struct Frame {
     /// The backend can clamp casters onto a near plane that they are before (Vulkan: depthClamp). False: near planes
     /// lie before all casters, which costs some precision of depth (ViewProjection::clamp_near is false).
     bool clamps_depth = true;
+    /// Partition virtual: what an earlier picture has shown, at most one for each light. A light without any has pages
+    /// by what its objects' bounds let expect. After a cut they are not used.
+    std::span<const PageRequests> requests;
 };
 
 } // namespace gnomon

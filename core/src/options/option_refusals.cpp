@@ -187,6 +187,16 @@ std::optional<std::string> roomRefusal(const ShadowOptions& options)
     return std::nullopt;
 }
 
+/// Pages come and go with what is seen, so those of an older frame do not stand for this one's.
+std::optional<std::string> pagesRefusal(const ShadowOptions& options)
+{
+    if (options.technique.partition == Partition::virtual_pages && boundsDrawing(options)) {
+        return "draw-budget, draw-budget.ms: partition virtual draws the pages that its picture asks for, and none of "
+               "them waits; leave them out";
+    }
+    return std::nullopt;
+}
+
 /// Segments of one frustum's trapezoid, found anew in each frame.
 std::optional<std::string> segmentsRefusal(const ShadowOptions& options)
 {
@@ -265,6 +275,9 @@ std::optional<std::string> refusalOfOptions(const ShadowOptions& options)
         return reason;
     }
     if (auto reason = roomRefusal(options)) {
+        return reason;
+    }
+    if (auto reason = pagesRefusal(options)) {
         return reason;
     }
     if (auto reason = segmentsRefusal(options)) {

@@ -177,6 +177,9 @@ Resolution resolve(const ShadowOptions& options)
     if (options.technique.partition == Partition::paraboloid) {
         made.asked_.technique.fit = Fit::uniform; // auto
     }
+    if (options.technique.partition == Partition::virtual_pages) {
+        made.asked_.technique.fit = Fit::uniform; // auto
+    }
     if (options.technique.fit == Fit::scene) {
         made.asked_.technique.partition = Partition::single; // auto
     }

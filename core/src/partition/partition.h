@@ -51,6 +51,8 @@ struct PartitionTraits {
     std::uint32_t maps = 0; // maps of a light; 0: one for each of CascadeOptions::count
     /// Its slices depend on what is seen: MultiPartition, and no `divide`.
     bool grows = false;
+    /// They are pages: VirtualPartition, and no `divide`.
+    bool pages = false;
 };
 inline constexpr std::uint32_t kCubeFaces = 6;
 inline constexpr std::uint32_t kHemispheres = 2;
@@ -76,6 +78,7 @@ inline constexpr PartitionTraits kPartitions[] = {
     {.partition = Partition::paraboloid, .divide = partitionParaboloid, .maps = kHemispheres},
     {.partition = Partition::multi, .measures = true, .maps = 1, .grows = true},
     {.partition = Partition::automatic, .divide = partitionCascades, .measures = true},
+    {.partition = Partition::virtual_pages, .maps = 1, .pages = true},
 };
 // clang-format on
 

@@ -23,6 +23,7 @@ void Frustums::forget()
 {
     chooser_ = {};
     multi_ = {};
+    virtual_ = {};
 }
 
 void Frustums::divide(const Sights& sights, Plan& plan)
@@ -31,13 +32,20 @@ void Frustums::divide(const Sights& sights, Plan& plan)
     own_wishes_.assign(frame.lights.size(), {});
     chooser_.follow(frame.lights);
     multi_.follow(frame.lights);
+    virtual_.follow(frame.lights);
     for (std::uint32_t index = 0; index < frame.lights.size(); ++index) {
         LightPlan& planned = plan.lights[index];
         const Setup& setup = sights.setups()[planned.options];
         if (planned.outcome.kind != OutcomeKind::ok || !setup.recipe.hasMaps()) {
             continue;
         }
-        if (!setup.recipe.grows()) {
+        if (setup.recipe.hasPages()) {
+            if (setup.sees()) {
+                virtual_.divide(
+                    {frame, setup.recipe, setup.camera, sights.receiversOf(index), setup.sight, frame.lights[index]},
+                    index);
+            }
+        } else if (!setup.recipe.grows()) {
             own_wishes_[index] = decide(sights, index, planned);
         } else if (setup.sees()) {
             // From where its maps are drawn.
@@ -131,6 +139,12 @@ void Frustums::listTenants(const Sights& sights)
             keys_.push_back(tenantKey(lights[index], frustum.id));
             wishes_.push_back(wishOf(sights, lights[index], frustum));
         }
+        for (const VirtualPage& page : virtual_.pagesOf(index)) {
+            const Recipe& recipe = sights.setups()[lights[index].options].recipe;
+            keys_.push_back(tenantKey(lights[index], page.id));
+            wishes_.push_back(recipe.wishOf(lights[index], lights[index].options, *recipe.partition, 0));
+            wishes_.back().side = std::min(kPageSide, recipe.resolved.largest_side());
+        }
     }
     first_tenants_.push_back(static_cast<std::uint32_t>(keys_.size()));
 }
@@ -176,7 +190,9 @@ void Frustums::addPositions(const Sights& sights, std::uint32_t index, const Sun
             position.slot = later ? 1 - sight.earlier_slot : sight.earlier_slot;
         }
         position.first_frustum = static_cast<std::uint32_t>(frustums_.size());
-        if (recipe.grows()) {
+        if (recipe.hasPages()) {
+            addPages(position);
+        } else if (recipe.grows()) {
             addGrown(position);
         } else {
             addDivided(sights, position);
@@ -191,6 +207,16 @@ void Frustums::addGrown(const LightPosition& position)
     std::uint32_t tenant = first_tenants_[position.light];
     for (const GrownFrustum& one : multi_.frustumsOf(position.light)) {
         frustums_.push_back({one.slice, multi_.receiversOf(one), one.strength, tenant++, 0, one.side, 0});
+    }
+}
+
+void Frustums::addPages(const LightPosition& position)
+{
+    std::uint32_t tenant = first_tenants_[position.light];
+    for (const VirtualPage& one : virtual_.pagesOf(position.light)) {
+        LightFrustum& frustum = frustums_.emplace_back();
+        frustum.tenant = tenant++;
+        frustum.page = &one;
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include "auto/auto_choice.h"
 #include "partition/multi.h"
+#include "partition/virtual.h"
 #include "plan/sights.h"
 #include "store/map_store.h"
 
@@ -22,6 +23,7 @@ struct LightFrustum {
     std::uint32_t number = 0;       // which of them
     std::uint32_t wanted_side = 0;  // texels for which slice.texel counts; 0: for as many as the map gets
     std::uint32_t gpu_cascades = 0; // number of cascades that the GPU fits to parts of this map; 0: it is fitted here
+    const VirtualPage* page = nullptr; // null: it is no page
 };
 
 /// One position that a light shines from, and its frustums.
@@ -47,6 +49,9 @@ public:
     void keepMemory(std::uint32_t light) { multi_.restoreMemory(light); }
     /// The texels of all the maps that a light wants.
     [[nodiscard]] std::uint64_t texelsWanted(const Sights& sights, std::uint32_t light) const;
+    /// ok, or why a light of partition virtual has no pages.
+    [[nodiscard]] const Outcome& outcomeOf(std::uint32_t light) const { return virtual_.outcomeOf(light); }
+    [[nodiscard]] const VirtualPartition& pages() const { return virtual_; }
     /// Fills the table.
     void list(const Sights& sights, const Plan& plan);
     /// Nothing is known of the frame before.
@@ -78,12 +83,14 @@ private:
     void listTenants(const Sights& sights);
     void addPositions(const Sights& sights, std::uint32_t index, const SunSteps& steps);
     void addGrown(const LightPosition& position);
+    void addPages(const LightPosition& position);
     void addDivided(const Sights& sights, const LightPosition& position);
     void addSegments(const Sights& sights, const LightPosition& position, std::uint32_t count);
 
     AutoChooser chooser_;
     MultiPartition multi_;
-    std::vector<MapWish> own_wishes_; // by light, of those that `multi_` does not divide
+    VirtualPartition virtual_;
+    std::vector<MapWish> own_wishes_; // by light, of those that neither of both divides
     std::vector<std::uint64_t> keys_;
     std::vector<MapWish> wishes_;
     std::vector<std::uint32_t> first_tenants_;   // by light, and one past the last

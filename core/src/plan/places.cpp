@@ -59,7 +59,7 @@ bool Places::hasRoom(const Frustums& frustums, std::uint32_t light, const Recipe
             return false;
         }
     }
-    return recipe.grows() || frustums.firstTenant(light) < end;
+    return recipe.grows() || recipe.hasPages() || frustums.firstTenant(light) < end;
 }
 
 void Places::furnish(Sights& sights, Frustums& frustums)

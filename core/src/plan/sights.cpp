@@ -153,7 +153,7 @@ void Sights::look(Setup& setup)
     if (!setup.sees()) {
         return;
     }
-    setup.sighted = recipe.predicts() || recipe.grows() || recipe.warps();
+    setup.sighted = recipe.predicts() || recipe.grows() || recipe.hasPages() || recipe.warps();
     if (setup.sighted) {
         setup.sight.look(frame_, camera, setup.receivers);
     }

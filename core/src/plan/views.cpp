@@ -93,10 +93,17 @@ Outcome Views::fitPositions(const Results& from, std::uint32_t index)
     from.plan.lights[index].sample = from.sights.lights()[index].sample;
     std::optional<Outcome> best;
     for (const LightPosition& position : from.frustums.positionsOf(index)) {
+        if (position.frustum_count == 0 && from.frustums.outcomeOf(index).kind != OutcomeKind::ok) {
+            best = from.frustums.outcomeOf(index);
+        }
         if (position.frustum_count == 0 && !best) {
             best = {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
         }
         for (const LightFrustum& frustum : from.frustums.of(position)) {
+            if (frustum.page != nullptr) {
+                best = placePage(from, position, frustum);
+                continue;
+            }
             const Outcome outcome = from.schedule.hasOwnTurn(position, frustum.slice)
                                         ? fitWide(from, position, frustum)
                                         : fitFrustum(from, position, frustum);
@@ -183,6 +190,26 @@ Outcome Views::fitWide(const Results& from, const LightPosition& position, const
     maps_.back().own_turn = true;
     maps_.back().may_wait = turn.may_wait;
     return outcome;
+}
+
+/// A page's projection is the grid's, whatever is seen.
+Outcome Views::placePage(const Results& from, const LightPosition& position, const LightFrustum& frustum)
+{
+    const VirtualPartition& pages = from.frustums.pages();
+    const MapPlace& place = from.places.store().placeOf(frustum.tenant, position.slot, frustum.number);
+    View view;
+    view.light = position.light;
+    view.serves.sun = position.sun;
+    pages.project(position.light, *frustum.page, place.tile.width, view);
+    if (!isFinite(view)) {
+        return kTooFarApart;
+    }
+    const std::span casters = pages.castersOf(*frustum.page);
+    view.casters.first = static_cast<std::uint32_t>(from.plan.casters.size());
+    view.casters.count = static_cast<std::uint32_t>(casters.size());
+    from.plan.casters.insert(from.plan.casters.end(), casters.begin(), casters.end());
+    addView(from, position, place, view);
+    return {};
 }
 
 /// Says where a view's map is. Schedule says later what of it has to be drawn.

@@ -42,6 +42,7 @@ private:
     Outcome fitPositions(const Results& from, std::uint32_t index);
     Outcome fitFrustum(const Results& from, const LightPosition& position, const LightFrustum& frustum);
     Outcome fitWide(const Results& from, const LightPosition& position, const LightFrustum& frustum);
+    Outcome placePage(const Results& from, const LightPosition& position, const LightFrustum& frustum);
     void addView(const Results& from, const LightPosition& position, const MapPlace& place, const View& fitted);
     // views_of_ids.cpp
     Outcome handOutIds(const Results& from, std::uint32_t index);

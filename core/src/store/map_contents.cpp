@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -32,6 +33,9 @@ void MapContents::fill(const MapProjection& now, std::span<const std::uint32_t> 
 {
     projection = now;
     version = now_version;
+    if (still.capacity() < casters.size()) { // seldom, for pages are given to others that have a few casters more
+        still.reserve(std::bit_ceil(casters.size()));
+    }
     still.assign(casters.begin(), casters.end());
     moving.clear();
 }

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which pages a light of partition virtual has: a quadtree over a square across the light, divided where that makes the
+// picture's error fall most.
+// Based on: R. Fernando, S. Fernandez, K. Bala, D. P. Greenberg, "Adaptive shadow maps", SIGGRAPH 2001 (a quadtree of
+// pages of one size, divided by benefit under a bound on texels); A. Lefohn, S. Sengupta, J. Owens,
+// "Resolution-matched shadow maps", 2007 (texels as wide as pixels are).
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+/// A point that the camera sees, and how much a finer texel is worth there.
+struct PagePoint {
+    glm::dvec2 at{0.0};   // across the light, metres
+    double depth_m = 0.0; // along it
+    double pixel_m = 0.0; // a pixel's side there on a surface that faces the eye
+    double weight = 0.0;
+};
+
+/// A caster's box as pages ask for it.
+struct PageCaster {
+    std::uint32_t object = 0;
+    glm::dvec2 low{0.0}; // its rectangle across the light, metres
+    glm::dvec2 high{0.0};
+    double nearest_m = 0.0; // its least depth along the light
+    /// For each pair of its faces the depth where a ray of light comes in between them: z + x and y times the place.
+    std::array<glm::dvec3, 3> faces{};
+};
+
+/// A square of a light's grid: the same in every frame. Sides are powers of two of a metre.
+struct PageKey {
+    int level = 0;      // its side is 2^level metres
+    std::int64_t x = 0; // its low corner, in quarters of its side from the world's origin
+    std::int64_t y = 0;
+
+    friend auto operator<=>(const PageKey&, const PageKey&) = default; // NOLINT(modernize-use-nullptr)
+};
+[[nodiscard]] double sideOf(const PageKey& key);
+[[nodiscard]] glm::dvec2 lowOf(const PageKey& key);
+
+/// A page that was found. Its casters are a range of PageTree::casters().
+struct FoundPage {
+    PageKey key;
+    std::uint32_t first_caster = 0;
+    std::uint32_t caster_count = 0;
+};
+
+/// Deterministic, and keeps its memory.
+class PageTree {
+public:
+    struct Input {
+        PageKey root;
+        std::span<const PagePoint> points;
+        std::span<const PageCaster> casters; // ascending by object
+        double inner_texels = 0.0;           // of a page's side, its border taken off
+        double border_texels = 0.0;          // on each side
+        double reach_texels = 0.0;           // that the filter reads around a place, its rays to the light apart
+        double spread = 0.0;                 // metres that a ray to the light's rim is off, for a metre of its way
+        std::uint32_t most_pages = 1;
+        std::span<const PageKey> known; // that were there in the frame before, ascending
+    };
+    /// The root is always among the pages. A page whose four quarters have pages has none itself.
+    void divide(const Input& input);
+    /// Finest first, those of one side by place.
+    [[nodiscard]] std::span<const FoundPage> pages() const { return pages_; }
+    /// Indices into Input::casters, ascending for each page.
+    [[nodiscard]] std::span<const std::uint32_t> castersOf(const FoundPage& page) const
+    {
+        return std::span(casters_).subspan(page.first_caster, page.caster_count);
+    }
+
+private:
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+    struct Node {
+        PageKey key;
+        std::uint32_t parent = kNone;
+        std::uint32_t first_point = 0; // in order_
+        std::uint32_t point_count = 0;
+        std::uint32_t first_caster = 0; // in casters_
+        std::uint32_t caster_count = 0;
+        double served_m = 0.0; // texel of the finest page around it
+        std::uint32_t covered = 0;
+        bool mapped = false;
+    };
+    struct Wish {
+        double gain = 0.0;
+        std::uint32_t node = 0;
+    };
+    void addRoot(const Input& input);
+    void addQuarters(const Input& input, std::uint32_t parent);
+    void addQuarter(const Input& input, std::uint32_t parent, const PageKey& key, std::uint32_t first,
+                    std::uint32_t count);
+    [[nodiscard]] bool listCasters(const Input& input, const Node& parent, Node& node);
+    [[nodiscard]] bool holdsRays(const Input& input, const Node& node) const;
+    [[nodiscard]] double gainOf(const Input& input, const Node& node) const;
+    [[nodiscard]] bool comesLater(const Wish& a, const Wish& b) const;
+    void take(std::uint32_t node);
+    void listPages();
+
+    std::vector<Node> nodes_;
+    std::vector<Wish> wishes_; // a heap
+    std::vector<std::uint32_t> order_;
+    std::vector<std::uint32_t> casters_;
+    std::vector<FoundPage> pages_;
+    std::uint32_t page_count_ = 0;
+};
+
+} // namespace gnomon

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Partition `virtual`: a light's texels lie in pages of one size, each of which shows a square of a grid that stands
+// still in the world. Pages are narrow where the picture has edges of shadows, and are kept from frame to frame.
+#pragma once
+
+#include "depth_range.h"
+#include "partition/page_tree.h"
+#include "recipe.h"
+#include "region.h"
+#include "store/light_rows.h"
+
+#include "auto/sight.h"
+
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+/// A page's border on each side, as a share of its side; more where the filter needs more.
+inline constexpr double kPageBorder = 0.125;
+/// Texels on a side of a page, where a light may have so many.
+inline constexpr std::uint32_t kPageSide = 128;
+
+/// One page of a light in one frame.
+struct VirtualPage {
+    std::uint32_t id = 0; // within its light: the same for as long as it is there
+    PageKey key;
+    bool is_root = false;           // it serves all that it shows
+    std::uint32_t first_caster = 0; // see VirtualPartition::castersOf()
+    std::uint32_t caster_count = 0;
+};
+
+/// Remembers a light by its key for as long as it is in the frames.
+class VirtualPartition {
+public:
+    struct Input {
+        const Frame& frame;
+        const Recipe& recipe;
+        const CameraView& camera;
+        std::span<const std::uint32_t> receivers; // that the camera sees
+        const Sight& sight;
+        const Light& light;
+    };
+
+    /// The lights of a frame. Those that are gone are forgotten, and nobody has pages yet.
+    void follow(std::span<const Light> lights);
+    /// Finds a light's pages.
+    void divide(const Input& input, std::size_t light);
+    /// ok, or why the light has no pages.
+    [[nodiscard]] const Outcome& outcomeOf(std::size_t light) const { return found_[light].outcome; }
+    /// Finest first. Holds until the next divide().
+    [[nodiscard]] std::span<const VirtualPage> pagesOf(std::size_t light) const;
+    /// Objects whose boxes reach into a page or its border, ascending.
+    [[nodiscard]] std::span<const std::uint32_t> castersOf(const VirtualPage& page) const
+    {
+        return std::span(casters_).subspan(page.first_caster, page.caster_count);
+    }
+    /// Fills in how a page is projected onto `side` texels, and which points it serves.
+    void project(std::size_t light, const VirtualPage& page, std::uint32_t side, View& view) const;
+
+private:
+    struct Known {
+        PageKey key;
+        std::uint32_t id = 0;
+    };
+    struct Memory {
+        std::vector<Known> pages; // ascending
+        std::vector<Known> next;
+        std::uint32_t next_id = 1;
+        glm::dvec3 direction_ws{0.0}; // pages of another direction show something else
+    };
+    /// A light in this frame.
+    struct Found {
+        Outcome outcome;
+        LightSpace space;
+        DepthRange range;
+        double border = kPageBorder; // share of a page's side
+        std::uint32_t first_page = 0;
+        std::uint32_t page_count = 0;
+    };
+    [[nodiscard]] static PageKey rootAround(const LightRect& rect);
+    void listCasters(const Input& input, const LightSpace& space, const PageKey& root, double border_share);
+    void listPoints(const Input& input, const LightSpace& space);
+    void addRequested(const PageRequests& requests, const LightSpace& space);
+    void namePages(Memory& memory, Found& found);
+
+    LightRows rows_;
+    std::vector<Memory> memories_; // by row
+    std::vector<Found> found_;     // by light
+    std::vector<VirtualPage> pages_;
+    std::vector<std::uint32_t> casters_;
+    // Scratch.
+    std::vector<std::uint64_t> keys_;
+    Region region_;
+    PageTree tree_;
+    std::vector<PagePoint> points_;
+    std::vector<std::uint32_t> objects_;
+    std::vector<PageCaster> boxes_;
+    std::vector<PageKey> known_;
+};
+
+} // namespace gnomon

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+// Partition virtual: which pages a sun has, what they show, and what stays from frame to frame.
+#include "allocation_count.h"
+#include "draughtsman.h"
+#include "plan_judge.h"
+#include "random_scenes.h"
+
+#include <gnomon/choice_rules.h>
+#include <gnomon/plan_views.h>
+#include <gnomon/planner.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+namespace {
+
+using test::Random;
+
+constexpr Technique kVirtual{Partition::virtual_pages, Fit::uniform, Filter::pcf};
+
+/// A street of boxes on a floor under a sun.
+struct Street {
+    ObjectSet set;
+    std::vector<Light> lights;
+    std::vector<ObjectId> boxes;
+    ShadowOptions options{.technique = kVirtual};
+    std::vector<SeenCell> cells;
+    std::vector<PageRequests> requests;
+    Frame frame;
+
+    Street()
+    {
+        set.add({{-200, -1, -200}, {200, 0, 200}});
+        Random random(3);
+        for (int i = 0; i < 200; ++i) {
+            const glm::dvec3 at = random.inBox({-100, 0, -100}, {100, 0, 100});
+            const glm::vec3 low(at);
+            boxes.push_back(set.add({low, low + glm::vec3(random.inBox({1, 1, 1}, {4, 9, 4}))}));
+        }
+        Light sun;
+        sun.key = 7;
+        sun.direction_ws = glm::normalize(glm::dvec3(0.4, -0.8, 0.3));
+        lights.push_back(sun);
+        frame.lights = lights;
+        frame.objects = &set;
+        look({0, 6, 30}, {0, 1, 0});
+    }
+    void look(const glm::dvec3& eye, const glm::dvec3& target)
+    {
+        frame.camera = test::perspectiveCamera(eye, target, 0.9, 16.0 / 9.0);
+    }
+    /// Requests of the floor, as this frame's camera sees it, with an edge around one place.
+    void request(const glm::dvec3& edge_ws, double around_m)
+    {
+        const glm::dmat4 clip = clipFromWorld(frame.camera);
+        cells.clear();
+        for (double x = -100.0; x <= 100.0; x += 1.0)
+            for (double z = -100.0; z <= 30.0; z += 1.0) {
+                const glm::dvec3 p(x, 0.0, z);
+                const glm::dvec4 h = clip * glm::dvec4(p, 1.0);
+                if (!(h.w > 0.1) || std::abs(h.x) > h.w || std::abs(h.y) > h.w)
+                    continue;
+                const glm::dvec2 place = (glm::dvec2(h) / h.w * 0.5 + 0.5) * glm::dvec2(frame.size_px);
+                cells.push_back({glm::vec2(place), static_cast<float>(h.z / h.w),
+                                 glm::distance(p, edge_ws) < around_m ? 8.0F : 0.0F});
+            }
+        requests = {{7, clip, frame.size_px, cells}};
+        frame.requests = requests;
+    }
+};
+
+std::uint64_t drawnTexels(const Plan& plan)
+{
+    std::uint64_t texels = 0;
+    for (const View& view : plan.views)
+        texels += texelsToDraw(view);
+    return texels;
+}
+
+/// The first view that serves a point: the finest one.
+const View* viewOf(const Plan& plan, const glm::dvec3& p)
+{
+    const auto found = std::ranges::find_if(plan.views, [&](const View& view) {
+        const auto place = placeOnMap(view, p);
+        return view.serves.sector.holds(p) && place && std::max(std::abs(place->x), std::abs(place->y)) < 1.0;
+    });
+    return found != plan.views.end() ? &*found : nullptr;
+}
+
+TEST(Virtual, HasAsManyPagesAsItsTexelsAllow)
+{
+    Street street;
+    for (const std::uint32_t texels : {1U << 14U, 1U << 18U, 1U << 22U}) {
+        street.options.max_texels = texels;
+        Planner planner(street.options);
+        const Plan& plan = planner.plan(street.frame);
+        ASSERT_EQ(plan.lights[0].outcome.kind, OutcomeKind::ok) << plan.lights[0].outcome.reason;
+        EXPECT_EQ(plan.views.size(), texels / (128 * 128));
+        EXPECT_TRUE(std::ranges::is_sorted(plan.views, {}, [](const View& view) { return view.projection.texel_m; }));
+        test::expectOrder(plan, street.set);
+    }
+}
+
+/// Pages with texels of one size are parts of one map: the same texel has the same place and depth in each.
+TEST(Virtual, PagesOfOneSizeArePartsOfOneMap)
+{
+    Street street;
+    Planner planner(street.options);
+    const Plan& plan = planner.plan(street.frame);
+    int pairs = 0;
+    for (std::size_t i = 0; i + 1 < plan.views.size(); ++i) {
+        const View& a = plan.views[i];
+        const View& b = plan.views[i + 1];
+        if (a.projection.texel_m != b.projection.texel_m)
+            continue;
+        ++pairs;
+        const auto texelOf = [](const View& view, const glm::dvec3& p) {
+            return (*placeOnMap(view, p) * 0.5 + 0.5) * static_cast<double>(view.place.tile.width);
+        };
+        glm::dvec2 apart(0.0);
+        for (const glm::dvec3& p : {glm::dvec3(3, 1, 2), glm::dvec3(-40, 7, 11), glm::dvec3(12, 0.5, -90)}) {
+            apart = texelOf(a, p) - texelOf(b, p);
+            EXPECT_NEAR(apart.x, std::round(apart.x), 1e-6);
+            EXPECT_NEAR(apart.y, std::round(apart.y), 1e-6);
+            EXPECT_EQ(depthOnMap(a, p), depthOnMap(b, p));
+        }
+        EXPECT_GT(std::max(std::abs(apart.x), std::abs(apart.y)), 1.0) << "they are two";
+    }
+    EXPECT_GT(pairs, 20);
+}
+
+TEST(Virtual, IsFinestWhereAnEdgeIs)
+{
+    Street street;
+    const glm::dvec3 edge(-9, 0, 4);
+    const glm::dvec3 elsewhere(9, 0, 4);
+    street.request(edge, 2.0);
+    Planner planner(street.options);
+    const Plan& plan = planner.plan(street.frame);
+    const View* const fine = viewOf(plan, edge);
+    const View* const coarse = viewOf(plan, elsewhere);
+    ASSERT_TRUE(fine != nullptr && coarse != nullptr);
+    EXPECT_LE(fine->projection.texel_m, 0.5 * coarse->projection.texel_m);
+}
+
+TEST(Virtual, RequestsAreNotUsedAfterACutNorForAnotherLight)
+{
+    Street street;
+    Planner planner(street.options);
+    const std::string without = test::bytesOf(planner.plan(street.frame));
+    street.request({-9, 0, 4}, 2.0);
+    street.frame.cut = true;
+    Planner cut(street.options);
+    const std::size_t views = cut.plan(street.frame).views.size();
+    EXPECT_GT(views, 1U);
+    street.frame.cut = false;
+    street.requests[0].light_key = 8;
+    Planner other(street.options);
+    EXPECT_EQ(test::bytesOf(other.plan(street.frame)).size(), without.size());
+}
+
+/// A narrow penumbra near the floor and a wide one from above: a page has room for the rays of what it serves.
+TEST(Virtual, BordersHoldTheRaysToTheLight)
+{
+    Street street;
+    street.options.technique.filter = Filter::raymarch;
+    const double spread = std::tan(0.5 * 0.07);
+    street.lights[0].angular_diameter_rad = 0.07;
+    Planner planner(street.options);
+    const Plan& plan = planner.plan(street.frame);
+    ASSERT_EQ(plan.lights[0].outcome.kind, OutcomeKind::ok);
+    Random random(11);
+    int narrow = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec3 p = random.inBox({-30, 0, -30}, {30, 0, 25});
+        const View* const view = viewOf(plan, p);
+        ASSERT_NE(view, nullptr);
+        if (!view->serves.sector.bounded())
+            continue; // the root, which has to do
+        for (const ObjectId id : street.boxes) {
+            const Aabb box = street.set.bounds(id);
+            const glm::dvec3 top(0.5F * (box.min.x + box.max.x), box.max.y, 0.5F * (box.min.z + box.max.z));
+            const double up_m = top.y / 0.8 * glm::length(glm::dvec3(0.4, -0.8, 0.3));
+            const glm::dvec3 shaded = top + street.lights[0].direction_ws * up_m;
+            if (glm::distance(shaded, p) < 0.2) {
+                ++narrow;
+                EXPECT_GE(0.125 * 128.0 * view->projection.texel_m, spread * up_m);
+            }
+        }
+    }
+    EXPECT_GT(narrow, 0);
+}
+
+TEST(Virtual, AStillFrameDrawsNothingAndAMovingCameraLittle)
+{
+    Street street;
+    Planner planner(street.options);
+    (void)planner.plan(street.frame);
+    EXPECT_EQ(drawnTexels(planner.plan(street.frame)), 0U);
+    std::uint64_t drawn = 0;
+    std::uint64_t whole = 0;
+    for (int i = 1; i <= 60; ++i) {
+        street.frame.index = static_cast<std::uint64_t>(i);
+        street.look({0.05 * i, 6, 30 - 0.05 * i}, {0.02 * i, 1, 0});
+        street.request({-9, 0, 4}, 2.0);
+        const Plan& plan = planner.plan(street.frame);
+        if (i > 1) // the first one has other requests
+            drawn += drawnTexels(plan);
+        whole += std::uint64_t{2048} * 2048;
+    }
+    EXPECT_LT(drawn, whole * 15 / 100);
+}
+
+TEST(Virtual, AMoverDrawsOnlyPagesThatItTouches)
+{
+    Street street;
+    Planner planner(street.options);
+    (void)planner.plan(street.frame);
+    const Aabb box = street.set.bounds(street.boxes[5]);
+    const glm::vec3 step(0.05F, 0.0F, 0.0F);
+    street.set.update(street.boxes[5], {box.min + step, box.max + step});
+    const Plan& plan = planner.plan(street.frame);
+    const auto touched = [&](const View& view) {
+        const auto casters = std::span(plan.casters).subspan(view.casters.first, view.casters.count);
+        return std::ranges::find(casters, street.boxes[5].index) != casters.end();
+    };
+    for (const View& view : plan.views)
+        EXPECT_EQ(view.contents.redraw, touched(view));
+}
+
+/// Points of the picture are in what serves them, and its casters are drawn there.
+TEST(Virtual, HoldsForRandomScenes)
+{
+    test::Tally tally;
+    std::size_t pages = 0;
+    for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        test::RandomScene scene = test::randomScene(seed, kVirtual);
+        scene.lights.resize(1);
+        Planner planner(scene.options);
+        const Plan& plan = planner.plan(scene.frame());
+        pages += plan.views.size();
+        const std::uint64_t side = *scene.options.map_size;
+        ASSERT_LE(plan.views.size(), std::max<std::uint64_t>(side * side / (128 * 128), 1));
+        Random random(seed + 1000000);
+        ASSERT_NO_FATAL_FAILURE(judge(scene, plan, random, tally));
+        Planner again(scene.options);
+        ASSERT_EQ(test::bytesOf(plan), test::bytesOf(again.plan(scene.frame())));
+    }
+    EXPECT_GT(tally.seen, 10000);
+    EXPECT_GT(tally.blocked, 5000);
+    EXPECT_GT(pages, 10000U);
+}
+
+/// Whatever moves, each map holds what drawing it from scratch would give.
+TEST(Virtual, IsNeverStale)
+{
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Street street;
+        street.options.max_texels = 1U << 19U;
+        Random random(seed);
+        Planner planner(street.options);
+        test::Draughtsman draughtsman;
+        for (int i = 0; i < 30; ++i) {
+            street.frame.index = static_cast<std::uint64_t>(i);
+            street.look(random.inBox({-20, 2, 10}, {20, 12, 40}), random.inBox({-20, 0, -20}, {20, 2, 0}));
+            if (random.below(2) == 0)
+                street.request(random.inBox({-20, 0, -20}, {20, 0, 20}), 3.0);
+            for (int k = 0; k < 3; ++k) {
+                const ObjectId box = street.boxes[random.below(200)];
+                const Aabb at = street.set.bounds(box);
+                const glm::vec3 step(random.inBox({-1, 0, -1}, {1, 0, 1}));
+                street.set.update(box, {at.min + step, at.max + step});
+            }
+            const Plan& plan = planner.plan(street.frame);
+            draughtsman.follow(plan, street.set);
+            draughtsman.check(plan, street.set);
+            ASSERT_FALSE(testing::Test::HasFailure());
+        }
+    }
+}
+
+/// A map's list of casters grows now and then, where its square is given to a page that has more.
+TEST(Virtual, AllocatesNextToNothingOnceWarm)
+{
+    Street street;
+    Planner planner(street.options);
+    const auto lookOn = [&](int i) {
+        street.frame.index = static_cast<std::uint64_t>(i);
+        street.look({0.03 * (i % 40), 6, 30}, {0, 1, 0});
+    };
+    for (int i = 0; i < 600; ++i) {
+        lookOn(i);
+        (void)planner.plan(street.frame);
+    }
+    const std::uint64_t before = test::heapAllocations();
+    for (int i = 600; i < 640; ++i) {
+        lookOn(i);
+        (void)planner.plan(street.frame);
+    }
+    EXPECT_LE(test::heapAllocations(), before + 4);
+}
+
+TEST(Virtual, SaysWhatItDoesNotGoWith)
+{
+    ShadowOptions options{.technique = kVirtual};
+    EXPECT_EQ(refusal(LightType::directional, options), std::nullopt);
+    EXPECT_NE(refusal(LightType::spot, options), std::nullopt);
+    EXPECT_NE(refusal(LightType::point, options), std::nullopt);
+    for (const Filter filter : {Filter::vsm, Filter::id, Filter::smoothies, Filter::volumes}) {
+        options.technique.filter = filter;
+        EXPECT_NE(refusal(LightType::directional, options), std::nullopt) << nameOf(filter);
+    }
+    options.technique = kVirtual;
+    options.draw_budget_texels = 1000;
+    EXPECT_FALSE(resolve(options));
+    EXPECT_NE(resolve(options).refusal.find("draw-budget"), std::string::npos);
+}
+
+} // namespace
+} // namespace gnomon
