@@ -283,6 +283,7 @@ void FrameRenderer::Impl::makePlan(Maps maps, bool masked_instead)
         }
         frame.draw_ms_per_texel = shadows->draw_rate.msPerTexel();
         frame.clamps_depth = scene.gpu.view().features.depth_clamp;
+        frame.requests = shadows->renderer.pageRequests(slot);
         plan = shadows->plan = &shadows->planner.plan(frame);
     }
     (void)shadows->renderer.prepare(*plan, forward.on ? VkExtent2D{} : screen->targets.drawn);

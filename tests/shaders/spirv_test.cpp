@@ -25,11 +25,11 @@ TEST(Spirv, IsSmall)
     add(spirv::all_of_gnomon_spirv);
     add(spirv::all_of_gnomon_classic_spirv);
     RecordProperty("bytes", static_cast<int>(bytes));
-    EXPECT_LE(std::size(spirv::all_of_gnomon_spirv) + std::size(spirv::all_of_gnomon_classic_spirv), 80U)
+    EXPECT_LE(std::size(spirv::all_of_gnomon_spirv) + std::size(spirv::all_of_gnomon_classic_spirv), 81U)
         << "a specialization constant may do";
     EXPECT_GT(largest, 0U);
 #ifndef GNOMON_SHADERS_KEEP_LINES
-    EXPECT_LE(bytes, 1'600'000U);
+    EXPECT_LE(bytes, 1'610'000U);
     EXPECT_LE(largest, 100'000U) << "a module that is slow to compile";
 #endif
 }

@@ -205,7 +205,11 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
         }
         parts.mask_kept[slot] = kept ? 1 : 0;
     });
+    const auto look = [&](RendererParts& parts) {
+        parts.seen.record(commands, slot, plan, inputs, parts.mask.mask());
+    };
     if (kept) {
+        impl_->whole(look);
         return;
     }
     std::optional<Timed> timed(std::in_place, profiler, commands, "mask");
@@ -221,7 +225,14 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
     if (softens) {
         timed.emplace(profiler, commands, "soften");
         impl_->whole([&](RendererParts& parts) { parts.mask.recordSoften(commands, slot, plan, inputs); });
+        timed.reset();
     }
+    impl_->whole(look);
+}
+
+std::span<const PageRequests> ShadowRenderer::pageRequests(std::uint32_t slot) const
+{
+    return impl_->parts->seen.read(slot);
 }
 
 void ShadowRenderer::recordViews(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, VkBuffer views,

@@ -119,6 +119,7 @@ bool RendererParts::prepare(const Plan& plan, VkExtent2D screen)
     const bool wants_mask = screen.width > 0 && screen.height > 0;
     const bool mask_changed = wants_mask && mask.prepare(plan, screen, classes);
     has_mask = wants_mask;
+    seen.prepare(plan, options.compact.channels == 0 ? screen : VkExtent2D{});
     prepared.take(plan);
     return changed || mask_changed;
 }

@@ -6,6 +6,7 @@
 #include "map_class.h"
 #include "map_notes.h"
 #include "mask_pass.h"
+#include "seen_cells.h"
 #include "usage.h"
 
 #include <gnomon/pack/frame_passes.h>
@@ -26,8 +27,8 @@ struct Spare {
 struct RendererParts {
     RendererParts(Device& device_in, const ShadowRendererOptions& options_in, bool layered_in)
         : device(device_in), options(options_in), fitter(device, options.frames_in_flight, options.pipeline_cache),
-          mask(device, options), layered(layered_in), reuse(options.frames_in_flight),
-          mask_kept(options.frames_in_flight)
+          mask(device, options), seen(device, options.frames_in_flight, options.pipeline_cache), layered(layered_in),
+          reuse(options.frames_in_flight), mask_kept(options.frames_in_flight)
     {
     }
 
@@ -52,6 +53,7 @@ struct RendererParts {
     std::vector<Spare> spares;
     CascadeFitter fitter;
     MaskPassRecorder mask;
+    SeenCells seen;
     bool layered;                        // the device can
     std::vector<pack::FramePass> passes; // passes of the plan that was prepared last
     std::vector<MapReuse> reuse;         // by slot

@@ -334,6 +334,10 @@ public:
     [[nodiscard]] FilterCost filterCost(std::uint32_t slot) const;
     /// Did the last recordMask() with this slot leave the mask as it was?
     [[nodiscard]] bool maskKept(std::uint32_t slot) const;
+    /// For Frame::requests: what the last recordMask() with this slot has shown of lights of partition virtual, once
+    /// the GPU has finished it. They hold until the next recordMask() with it, or prepare(). Empty without such lights,
+    /// and where the mask is compact.
+    [[nodiscard]] std::span<const PageRequests> pageRequests(std::uint32_t slot) const;
     /// The maps that the last recordMaps() with this slot drew and kept.
     [[nodiscard]] MapReuse reuse(std::uint32_t slot) const;
     /// lvsm: the layers of a view of the plan that was recorded last, nearest first, once the GPU has finished
