@@ -5,6 +5,7 @@
 #include "reach_cells.h"
 
 #include <gnomon/error.h>
+#include <gnomon/pack/page_table.h>
 #include <gnomon/pack/shading_buffers.h>
 #include <gnomon/pack/technique_constants.h>
 #include <gnomon/plan_views.h>
@@ -172,7 +173,7 @@ MaskDraw drawOf(const Plan& plan, std::uint32_t layer, const Strip& strip, std::
             draw.orthographic = draw.orthographic && isOrthographic(plan, views);
         }
     }
-    if (draw.channels == 0 || !isAlone(plan)) {
+    if (draw.channels == 0 || !isAlone(plan) || hasPages((*plan.options)[options])) { // which are found by a table
         return draw;
     }
     draw.few_views = fewViewsOf(plan, plan.lights.front());

@@ -7,6 +7,7 @@
 #include <gnomon/object_ids.h>
 #include <gnomon/pack/depth_layers.h>
 #include <gnomon/pack/filter_rule.h>
+#include <gnomon/pack/page_table.h>
 #include <gnomon/plan_views.h>
 
 #include <glm/gtc/matrix_access.hpp>
@@ -124,6 +125,9 @@ void fillLight(const Plan& plan, std::size_t index, SunShown shown, shared::GpuL
     out.views = {views.first, views.count, views.later_first, views.later_count};
     out.steps = stepRule(light.steps);
     out.options.x = light.options;
+    if (hasPages((*plan.options)[light.options])) {
+        out.options.y = static_cast<std::uint32_t>(index) + 1;
+    }
     if (light.first_object_id != kNoIndex) {
         out.options.y = firstIdVector(plan, light);
         out.options.z = static_cast<std::uint32_t>(plan.object_bounds.size());

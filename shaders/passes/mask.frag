@@ -60,6 +60,10 @@ layout(constant_id = 24) const bool kOrthographic = false; // all views are
 layout(constant_id = 25) const bool kSettles = false; // draws what blocks settle, and leaves the rest to a draw without it
 #define GNOMON_SETTLES kSettles
 #endif
+#if !defined(GNOMON_ONE_VIEW) && GNOMON_COMPILES_DEPTHS
+layout(constant_id = 26) const bool kPages = false; // a point's view is found by a table, which is in place of tiles
+#define GNOMON_PAGES (kPages && kTileChannels == 0u)
+#endif
 layout(constant_id = 22) const int kPixelsPerTexel = 1; // along x and y, of what is drawn to: mask-size=half
 layout(push_constant) uniform Lights
 {
@@ -98,6 +102,9 @@ uint receiver_piece;
 #define GNOMON_PIECE receiver_piece
 #define GNOMON_OBJECTS_BINDING 4 // in place of layers of depth, which ids have none of
 #endif
+#define GNOMON_TILES_BINDING 12
+#include "gnomon/compact_mask.glsl"
+#define GNOMON_PAGE_WORDS gnomon_mask_tiles
 #include "gnomon/lib/light_visibility.glsl"
 
 layout(set = 0, binding = 5) uniform sampler2D depths;
@@ -105,9 +112,6 @@ layout(set = 0, binding = 6) uniform sampler2D normals;
 layout(set = 0, binding = 10) uniform sampler2D smooth_surfaces;
 layout(set = 0, binding = 7) uniform usampler2D object_ids;
 layout(location = 0) out vec4 visibility;
-
-#define GNOMON_TILES_BINDING 12
-#include "gnomon/compact_mask.glsl"
 
 // The lights of a draw that are left to be looked at: bits of channels, or words of a tile.
 struct Left {

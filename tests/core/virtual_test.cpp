@@ -180,7 +180,7 @@ TEST(Virtual, BordersHoldTheRaysToTheLight)
         const glm::dvec3 p = random.inBox({-30, 0, -30}, {30, 0, 25});
         const View* const view = viewOf(plan, p);
         ASSERT_NE(view, nullptr);
-        if (!view->serves.sector.bounded())
+        if (view == &plan.views.back())
             continue; // the root, which has to do
         for (const ObjectId id : street.boxes) {
             const Aabb box = street.set.bounds(id);

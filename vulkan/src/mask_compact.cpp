@@ -98,7 +98,7 @@ void MaskPassRecorder::fillTiles(Slot& slot)
 
 BufferRef MaskPassRecorder::tiles(std::uint32_t slot) const
 {
-    const bool has = slot < slots_.size() && slots_[slot].tiles.buffer() != VK_NULL_HANDLE;
+    const bool has = isCompact() && slot < slots_.size() && slots_[slot].tiles.buffer() != VK_NULL_HANDLE;
     return has ? BufferRef{slots_[slot].tiles.buffer(), slots_[slot].tiles.size()} : BufferRef{};
 }
 

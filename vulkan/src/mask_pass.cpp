@@ -224,7 +224,7 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
         orDepth(kSmooth, inputs.smooth),
         DescriptorSets::image(kTints, sampler,
                               maps.tints.inUse() ? maps.tints.image().view() : maps.recorder->maps().view(), kRead),
-        isCompact()
+        !now_.tiles.empty()
             ? DescriptorSets::buffer(kTiles, slot.tiles.buffer())
             : DescriptorSets::buffer(kTiles, constants, room_.lights * sizeof(shared::GpuLight), room_.lights_at)};
     sets_.write(slot.sets[options], writes);
@@ -234,7 +234,7 @@ void MaskPassRecorder::fill(Slot& slot, const Plan& plan, const MaskInputs& inpu
 {
     ++drawings_;
     std::memcpy(slot.constants.data(), now_.constants.data(), now_.constants.size());
-    if (isCompact()) {
+    if (!now_.tiles.empty()) {
         fillTiles(slot);
     }
     if (slot.objects) {

@@ -81,7 +81,7 @@ public:
 private:
     struct Slot {
         HostBuffer constants;              // GpuConstants by options, then lights and views
-        HostBuffer tiles;                  // for a compact mask
+        HostBuffer tiles;                  // for a compact mask, or for pages
         std::uint64_t tiles_of = 0;        // which mask's they are: drawings_
         HostBuffer objects;                // pack::fillObjects(); of plans without ids none
         std::vector<VkDescriptorSet> sets; // by options

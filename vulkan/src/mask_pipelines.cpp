@@ -5,6 +5,8 @@
 #include "pipelines.h"
 #include "specialisation.h"
 
+#include <gnomon/pack/page_table.h>
+
 #include <gnomon_spirv.h>
 
 #include <algorithm>
@@ -34,6 +36,7 @@ MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape)
     const bool layered =
         options.technique().partition == Partition::multi && options.multi().divide == MultiDivide::receivers;
     key.constants.layered = layered ? VK_TRUE : VK_FALSE;
+    key.constants.pages = pack::hasPages(options) ? VK_TRUE : VK_FALSE;
     return key;
 }
 

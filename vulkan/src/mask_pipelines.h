@@ -32,6 +32,7 @@ struct MaskConstants {
     VkBool32 layered = VK_FALSE;        // views may be ViewServes::layered
     VkBool32 orthographic = VK_FALSE;   // pack::MaskDraw::orthographic
     VkBool32 settles = VK_FALSE;        // DrawnAs::settled
+    VkBool32 pages = VK_FALSE;          // a point's view is found by pack::fillPageTable()
 
     bool operator==(const MaskConstants&) const = default;
 };

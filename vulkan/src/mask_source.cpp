@@ -6,6 +6,7 @@
 #include "mask_pass.h"
 
 #include <gnomon/pack/frame_passes.h>
+#include <gnomon/pack/page_table.h>
 #include <gnomon/plan_views.h>
 
 #include <gnomon/shared/gpu_structs.h>
@@ -96,6 +97,7 @@ void MaskPassRecorder::describe(const Plan& plan, const MaskInputs& inputs, cons
         pack::listCompactMaskDraws(plan, compact_, size_px, now_.draws);
     } else {
         pack::listMaskDraws(plan, size_px, now_.draws);
+        pack::fillPageTable(plan, now_.tiles);
     }
     if (!now_.numbers.empty()) {
         pack::fillObjects(plan, now_.numbers);

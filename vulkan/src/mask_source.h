@@ -33,7 +33,7 @@ struct MaskSource {
     std::vector<Light> lights;
     std::vector<std::byte> constants; // GpuConstants by options, then lights and views
     std::vector<glm::vec4> numbers;   // pack::fillObjects()
-    std::vector<glm::uvec2> tiles;    // pack::fillMaskTiles()
+    std::vector<glm::uvec2> tiles;    // pack::fillMaskTiles(), or of a mask that is not compact pack::fillPageTable()
     std::vector<pack::MaskDraw> draws;
 
     bool operator==(const MaskSource&) const = default;

@@ -101,7 +101,7 @@ void VirtualPartition::divide(const Input& input, std::size_t light)
     const std::uint32_t largest = options.largest_side();
     const std::uint32_t side = std::min(kPageSide, largest);
     found.border = std::max(kPageBorder, options.borderOf(side) / side);
-    const PageKey root = rootAround(region_.rect());
+    const PageKey root = rootAround(region_.rect(), 32.0 * input.camera.pad_m);
     listCasters(input, found.space, root, found.border);
     if (boxes_.empty()) {
         found.outcome = {OutcomeKind::no_caster, "nothing can throw a shadow on what the camera sees"};
@@ -132,15 +132,16 @@ void VirtualPartition::divide(const Input& input, std::size_t light)
 
 /// A square of the grid around a rectangle. Its low corner is a multiple of a quarter of its side, so that all but the
 /// coarsest pages stay where they are when it moves.
-PageKey VirtualPartition::rootAround(const LightRect& rect)
+PageKey VirtualPartition::rootAround(const LightRect& rect, double least_m)
 {
-    constexpr double kLeastSide_m = 1e-6;
-    const double length = std::max({rect.high.x - rect.low.x, rect.high.y - rect.low.y, kLeastSide_m});
+    constexpr double kRoom = 1.0 / 64.0; // on each side, for what rounding moves
+    const glm::dvec2 size = rect.high - rect.low;
+    const double length = std::max({size.x, size.y, least_m});
     PageKey root;
-    root.level = static_cast<int>(std::ceil(std::log2(length * (4.0 / 3.0))));
+    root.level = static_cast<int>(std::ceil(std::log2(length * (4.0 / 3.0) * (1.0 + 2.0 * kRoom))));
     const double quarter = 0.25 * sideOf(root);
-    root.x = static_cast<std::int64_t>(std::floor(rect.low.x / quarter));
-    root.y = static_cast<std::int64_t>(std::floor(rect.low.y / quarter));
+    root.x = static_cast<std::int64_t>(std::floor((rect.low.x - kRoom * length) / quarter));
+    root.y = static_cast<std::int64_t>(std::floor((rect.low.y - kRoom * length) / quarter));
     return root;
 }
 
@@ -221,7 +222,6 @@ void VirtualPartition::namePages(Memory& memory, Found& found)
         }
         page.caster_count = static_cast<std::uint32_t>(casters_.size()) - page.first_caster;
     }
-    pages_.back().is_root = true;
     std::swap(memory.pages, memory.next);
     found.page_count = static_cast<std::uint32_t>(pages_.size()) - found.first_page;
 }
@@ -248,10 +248,8 @@ void VirtualPartition::project(std::size_t light, const VirtualPage& page, std::
     projection.metric.metric_ws = glm::dvec4(space.depth_ws, -range.near_m) / (range.far_m - range.near_m);
     view.fit.finest_texel = glm::dvec2(texel);
     view.fit.coarsest_texel = glm::dvec2(texel);
-    if (!page.is_root) {
-        view.serves.sector.x = glm::dvec4(space.right_ws, -centre.x) / (0.5 * length);
-        view.serves.sector.y = glm::dvec4(space.up_ws, -centre.y) / (0.5 * length);
-    }
+    view.serves.sector.x = glm::dvec4(space.right_ws, -centre.x) / (0.5 * length);
+    view.serves.sector.y = glm::dvec4(space.up_ws, -centre.y) / (0.5 * length);
 }
 
 } // namespace gnomon

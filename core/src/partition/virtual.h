@@ -25,7 +25,6 @@ inline constexpr std::uint32_t kPageSide = 128;
 struct VirtualPage {
     std::uint32_t id = 0; // within its light: the same for as long as it is there
     PageKey key;
-    bool is_root = false;           // it serves all that it shows
     std::uint32_t first_caster = 0; // see VirtualPartition::castersOf()
     std::uint32_t caster_count = 0;
 };
@@ -78,7 +77,7 @@ private:
         std::uint32_t first_page = 0;
         std::uint32_t page_count = 0;
     };
-    [[nodiscard]] static PageKey rootAround(const LightRect& rect);
+    [[nodiscard]] static PageKey rootAround(const LightRect& rect, double least_m);
     void listCasters(const Input& input, const LightSpace& space, const PageKey& root, double border_share);
     void listPoints(const Input& input, const LightSpace& space);
     void addRequested(const PageRequests& requests, const LightSpace& space);

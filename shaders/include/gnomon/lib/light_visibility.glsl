@@ -108,6 +108,8 @@ vec2 discPoint(int i)
 #endif
 #ifdef GNOMON_ONE_VIEW_OF
 #define GNOMON_KNOWN_VIEW true
+#elif defined(GNOMON_PAGES)
+#define GNOMON_KNOWN_VIEW (GNOMON_SLICES_ALONE || GNOMON_PAGES)
 #else
 #define GNOMON_KNOWN_VIEW GNOMON_SLICES_ALONE
 #endif
@@ -360,6 +362,26 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
     return GNOMON_TINTS ? vec4(colour, seen) : vec4(seen);
 }
 
+// A pass may define GNOMON_PAGES, whether its lights have pages, a constant, and GNOMON_PAGE_WORDS, the words of
+// pack::fillPageTable(). Without it each page is asked in turn.
+#ifdef GNOMON_PAGES
+// The finest page around a point: from the root, which is the light's last view, down to where nothing is finer.
+uint pageAt(GpuLight light, vec3 p)
+{
+    GpuView root = gnomon_views[light.views.x + light.views.y - 1u];
+    vec2 at = vec2(dotRow(root.sector_x, p), dotRow(root.sector_y, p)) * 0.5 + 0.5;
+    uint nodes = GNOMON_PAGE_WORDS[light.options.y - 1u].x;
+    uint word = 0x10000u;
+    while (word > 0xFFFFu) { // tested before [drivers: loop-result]
+        at += at;
+        vec2 high = step(vec2(1.0), at);
+        at -= high;
+        word = GNOMON_PAGE_WORDS[nodes + 2u * (word >> 16) + uint(high.y)][uint(high.x)];
+    }
+    return light.views.x + word;
+}
+#endif
+
 // `p` eye-relative, `n` its unit geometric normal, `s` the smooth surface over it; `own_tint` of a blended caster, else
 // 1; `pixel` of the screen; `w` of the point by GpuScreen's eye_w: one over clip space's w.
 vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint, vec2 pixel, float w)
@@ -409,6 +431,11 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     float faded = fadedShare(GNOMON_NUMBERS.screen.fade, length(p));
     float seen = 1.0;
     vec3 colour = vec3(1.0);
+#ifdef GNOMON_PAGES
+    if (GNOMON_PAGES) {
+        light.views.xy = uvec2(pageAt(light, r.p), 1u);
+    }
+#endif
     uvec2 range = light.views.xy;
     bool is_later = false;
     bool more = light.views.w > 0u;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a shader finds the page of partition virtual that serves a point: a quadtree of words, one walk down from the
+// light's root.
+#pragma once
+
+#include <gnomon/export.h>
+#include <gnomon/plan.h>
+
+#include <glm/vec2.hpp>
+
+#include <vector>
+
+namespace gnomon::pack {
+
+/// Fills in the table: first for each light of the plan the place of its first node, less two (x; 0: it has no pages),
+/// then the nodes. A node has two vectors, the lower half and the upper half of its square, each with a word for the
+/// left and the right quarter: in its lower 16 bits the view that serves it, counted from the light's first, and in its
+/// upper 16 bits the number of the quarter's own node among the light's, from 1 on; 0: it has none. Empty where no
+/// light has pages. Keeps the memory of `out`.
+GNOMON_API void fillPageTable(const Plan& plan, std::vector<glm::uvec2>& out);
+/// Does a light with these options have pages, and its views a table?
+[[nodiscard]] GNOMON_API bool hasPages(const ResolvedOptions& options);
+
+} // namespace gnomon::pack
