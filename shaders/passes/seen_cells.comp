@@ -63,7 +63,7 @@ void main()
         for (int x = begin.x; x < end.x; ++x) {
             ivec2 place = ivec2(x, y);
             Pixel pixel = pixelAt(place);
-            if (pixel.near > 0.0) {
+            if (pixel.near > 0.0 && pixel.visibility >= 0.0) {
                 vec2 change = vec2(changeTo(place + ivec2(1, 0), pixel), changeTo(place + ivec2(0, 1), pixel));
                 float here = dot(change, change);
                 edge += here;

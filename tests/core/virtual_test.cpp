@@ -189,7 +189,7 @@ TEST(Virtual, BordersHoldTheRaysToTheLight)
             const glm::dvec3 shaded = top + street.lights[0].direction_ws * up_m;
             if (glm::distance(shaded, p) < 0.2) {
                 ++narrow;
-                EXPECT_GE(0.125 * 128.0 * view->projection.texel_m, spread * up_m);
+                EXPECT_GE(14.0 * view->projection.texel_m, spread * up_m);
             }
         }
     }
@@ -219,6 +219,7 @@ TEST(Virtual, AStillFrameDrawsNothingAndAMovingCameraLittle)
 TEST(Virtual, AMoverDrawsOnlyPagesThatItTouches)
 {
     Street street;
+    street.request({-9, 0, 4}, 2.0); // else the points that stand in would move with the box
     Planner planner(street.options);
     (void)planner.plan(street.frame);
     const Aabb box = street.set.bounds(street.boxes[5]);

@@ -195,6 +195,7 @@ double PageTree::gainOf(const Input& input, const Node& node) const
 void PageTree::take(std::uint32_t node)
 {
     nodes_[node].mapped = true;
+    nodes_[node].taken = true;
     ++page_count_;
     std::uint32_t up = nodes_[node].parent;
     while (up != kNone && ++nodes_[up].covered == 4) {
@@ -210,12 +211,17 @@ void PageTree::take(std::uint32_t node)
 void PageTree::listPages()
 {
     pages_.clear();
+    taken_.clear();
     for (const Node& node : nodes_) {
+        if (node.taken) {
+            taken_.push_back(node.key);
+        }
         if (node.mapped) {
             pages_.push_back({node.key, node.first_caster, node.caster_count});
         }
     }
     std::ranges::sort(pages_, {}, &FoundPage::key);
+    std::ranges::sort(taken_);
 }
 
 } // namespace gnomon

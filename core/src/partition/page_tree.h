@@ -65,12 +65,14 @@ public:
         double reach_texels = 0.0;           // that the filter reads around a place, its rays to the light apart
         double spread = 0.0;                 // metres that a ray to the light's rim is off, for a metre of its way
         std::uint32_t most_pages = 1;
-        std::span<const PageKey> known; // that were there in the frame before, ascending
+        std::span<const PageKey> known; // taken() in the frame before
     };
     /// The root is always among the pages. A page whose four quarters have pages has none itself.
     void divide(const Input& input);
     /// Finest first, those of one side by place.
     [[nodiscard]] std::span<const FoundPage> pages() const { return pages_; }
+    /// All squares that were divided or have pages, ascending: with those whose quarters serve all of them.
+    [[nodiscard]] std::span<const PageKey> taken() const { return taken_; }
     /// Indices into Input::casters, ascending for each page.
     [[nodiscard]] std::span<const std::uint32_t> castersOf(const FoundPage& page) const
     {
@@ -89,6 +91,7 @@ private:
         double served_m = 0.0; // texel of the finest page around it
         std::uint32_t covered = 0;
         bool mapped = false;
+        bool taken = false;
     };
     struct Wish {
         double gain = 0.0;
@@ -110,6 +113,7 @@ private:
     std::vector<std::uint32_t> order_;
     std::vector<std::uint32_t> casters_;
     std::vector<FoundPage> pages_;
+    std::vector<PageKey> taken_;
     std::uint32_t page_count_ = 0;
 };
 

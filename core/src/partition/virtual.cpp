@@ -21,7 +21,7 @@ namespace gnomon {
 namespace {
 
 /// A cell of a picture without an edge counts for this much of an edge: the next picture may have one there.
-constexpr double kUnknownEdge = 0.25;
+constexpr double kUnknownEdge = 0.05;
 
 /// How deep along the light a scene reaches, in steps, so that pages hold while something moves.
 DepthRange depthsOf(const LightSpace& space, const Aabb& scene_ws, double pad_m)
@@ -111,11 +111,8 @@ void VirtualPartition::divide(const Input& input, std::size_t light)
     listPoints(input, found.space);
     if (memory.direction_ws != found.space.forward_ws) {
         memory.pages.clear();
+        memory.taken.clear();
         memory.direction_ws = found.space.forward_ws;
-    }
-    known_.clear();
-    for (const Known& one : memory.pages) {
-        known_.push_back(one.key);
     }
     const double border = found.border * side;
     const std::uint64_t together = input.light.map_size != 0 ? std::min(input.light.map_size, largest) : largest;
@@ -126,7 +123,8 @@ void VirtualPartition::divide(const Input& input, std::size_t light)
     tree_.divide({root, points_, boxes_, side - 2.0 * border, border,
                   tileMarginTexels(static_cast<double>(options.reach_texels())), spread,
                   static_cast<std::uint32_t>(std::max<std::uint64_t>(texels / (std::uint64_t{side} * side), 1)),
-                  known_});
+                  memory.taken});
+    memory.taken.assign(tree_.taken().begin(), tree_.taken().end());
     namePages(memory, found);
 }
 

@@ -17,7 +17,7 @@
 namespace gnomon {
 
 /// A page's border on each side, as a share of its side; more where the filter needs more.
-inline constexpr double kPageBorder = 0.125;
+inline constexpr double kPageBorder = 14.0 / 128.0;
 /// Texels on a side of a page, where a light may have so many.
 inline constexpr std::uint32_t kPageSide = 128;
 
@@ -65,6 +65,7 @@ private:
     struct Memory {
         std::vector<Known> pages; // ascending
         std::vector<Known> next;
+        std::vector<PageKey> taken; // PageTree::taken()
         std::uint32_t next_id = 1;
         glm::dvec3 direction_ws{0.0}; // pages of another direction show something else
     };
@@ -95,7 +96,6 @@ private:
     std::vector<PagePoint> points_;
     std::vector<std::uint32_t> objects_;
     std::vector<PageCaster> boxes_;
-    std::vector<PageKey> known_;
 };
 
 } // namespace gnomon
