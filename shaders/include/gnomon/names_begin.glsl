@@ -328,6 +328,7 @@
 #define packCount gnomon_packCount
 #define packSeen gnomon_packSeen
 #define packSmoothie gnomon_packSmoothie
+#define pageAt gnomon_pageAt
 #define pairedDepth gnomon_pairedDepth
 #define pairedTexel gnomon_pairedTexel
 #define paraboloidDirection gnomon_paraboloidDirection

@@ -328,6 +328,7 @@
 #undef packCount
 #undef packSeen
 #undef packSmoothie
+#undef pageAt
 #undef pairedDepth
 #undef pairedTexel
 #undef paraboloidDirection
