@@ -40,7 +40,7 @@ std::unique_ptr<host::Gpu> openGpu(const Settings& settings, const host::Window*
                                    const vulkan::ShaderHook& shaders)
 {
     host::GpuOptions options{
-        .gpu = settings.gpu, .validate = settings.validate, .while_waiting = requireNotInterrupted, .shaders = shaders};
+        .gpu = settings.gpu, .validate = settings.validate, .while_waiting = requireNotInterrupted, .rates = settings.rates, .shaders = shaders};
     if (window != nullptr) {
         options = host::forWindow(options, *window);
     }

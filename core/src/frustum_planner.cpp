@@ -140,7 +140,11 @@ Prediction FrustumPlanner::predict(const FrustumInput& input, const Sight& sight
     const FacingTexels facing =
         lit_.empty() ? facingAmid(input, sight, lie, warp, frame) : facingTexels(lit_, warp, frame, texels_px_);
     const glm::dvec2 size = frame.half - frame.texel * lie.border_texels;
-    return {mapErrorOf(lit_, warp, frame, feature_m), coarsestTexel_px(lit_, warp, frame, texels_px_), facing, true,
+    return {mapErrorOf(lit_, warp, frame, feature_m),
+            edgesBySize(lit_, warp, frame, feature_m, input.halvings),
+            coarsestTexel_px(lit_, warp, frame, texels_px_),
+            facing,
+            true,
             2.0 * std::max(size.x, size.y)};
 }
 
