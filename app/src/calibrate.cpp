@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,8 +27,8 @@ namespace gnomon::app {
 namespace {
 
 constexpr double kNsOfMs = 1e6;
-constexpr std::string_view kSmall = "1024"; // sides of maps, texels
-constexpr std::string_view kLarge = "4096";
+constexpr std::uint32_t kSmall = 1024; // sides of maps, texels
+constexpr std::uint32_t kLarge = 4096;
 
 /// A bench whose passes tell the rates apart.
 Settings benchSettings(const Settings& asked)
@@ -50,7 +51,7 @@ Settings benchSettings(const Settings& asked)
 /// The passes of one technique of the bench.
 class Passes {
 public:
-    Passes(const Json& bench, std::string_view filter, std::string_view side)
+    Passes(const Json& bench, std::string_view filter, std::uint32_t side)
     {
         for (const Json& result : bench.at("results")) {
             const Json& settings = result.at("settings");
@@ -86,8 +87,8 @@ DeviceRates ratesOfBench(const Json& bench, glm::uvec2 size_px, std::size_t obje
     const Passes rays(bench, "raymarch", kLarge);
     const Passes moments(bench, "vsm", kSmall);
     const double pixels = static_cast<double>(size_px.x) * size_px.y;
-    const double small_texels = 1024.0 * 1024.0;
-    const double large_texels = 4096.0 * 4096.0;
+    const double small_texels = double{kSmall} * kSmall;
+    const double large_texels = double{kLarge} * kLarge;
     const std::string maps = "shadow maps";
     DeviceRates rates;
     rates.source = RateSource::measured;

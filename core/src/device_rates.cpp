@@ -33,9 +33,9 @@ DeviceRates ratesOf(RateSource source)
     return source == RateSource::software ? kSoftware : kGpu;
 }
 
-std::string_view nameOf(RateSource source)
+std::string_view nameOf(RateSource value)
 {
-    switch (source) {
+    switch (value) {
     case RateSource::gpu:
         return "gpu";
     case RateSource::software:

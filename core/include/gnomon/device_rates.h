@@ -16,7 +16,7 @@ enum class RateSource : std::uint8_t {
     software, // the table's, for a software rasteriser
     measured, // measured on the device itself
 };
-[[nodiscard]] GNOMON_API std::string_view nameOf(RateSource source);
+[[nodiscard]] GNOMON_API std::string_view nameOf(RateSource value);
 
 /// Each is a time, a finite number >= 0. Only their ratios count. The pixels are those of the picture.
 struct DeviceRates {
@@ -28,7 +28,7 @@ struct DeviceRates {
     double compare_ns = 0.0;      // a pixel of the mask by a filter of a few texels, and by a filterable one
     double search_ns = 0.0;       // a pixel of the mask of pcss
     double ray_ns = 0.0;          // a pixel of the mask of raymarch
-    RateSource source = RateSource::gpu;
+    RateSource source = RateSource::gpu; // their origin
 
     bool operator==(const DeviceRates&) const = default;
 };
