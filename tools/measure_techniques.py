@@ -1,21 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Error, time and memory of techniques beside each other: the tables of docs/which-technique.md.
+"""What every filter errs by where all else is found by itself, beside `auto` and beside combinations asked for by name: the
+tables of docs/which-technique.md.
 
-usage: measure_techniques.py [--only NAMES] [--size WxH] [--samples N] [--repetitions N] [--keep FILE] GNOMON SHARED
+usage: measure_techniques.py [--only NAMES] [--size WxH] [--samples N] [--texels N] GNOMON SHARED
 
-GNOMON is the program, SHARED the folder that holds scenes/. The views are those of tools/measure_filters.py. rmse against
-area truth of the sun's own size; time is that of the frame in ratio to the one without shadows; memory is all that shadows
-take, masks among it. The first table has a row for each technique, best first: geometric mean over the views of its rmse
-beside the least in the view, the greatest such ratio, the median of its mean error's size, median frame and memory; and the
-technique that errs at least 5 % less in less time, in the mean of the views. The second has the views on which one does so
-to each quality of auto. The third has the views' rmse and frame.
---only names views by words in their names. --keep writes what was measured to a JSON file, or reads it where it is there.
-A scene that is not there is named on stderr and left out, and the exit status is then 1.
+GNOMON is the program, SHARED the folder that holds scenes/. The views are those of tools/measure_filters.py. Every light's
+maps have --texels texels together. rmse against area truth of the sun's own size; frames in ratio to that without shadows.
+The first table has a row for each technique, best first: the geometric mean over the views of its rmse beside the least in
+the view, the greatest such ratio, the median of its mean error's size, and the median frame. The second has the views' rmse.
+--only names views by words in their names. A scene that is not there is named on stderr and left out, and the exit status
+is then 1.
 """
 
 import argparse
-import json
 import statistics
 import sys
 from pathlib import Path
@@ -24,116 +22,70 @@ from measure_auto import FITS, PARTITIONS
 from measure_filters import VIEWS
 from measuring import cell, present, run, table
 
+FILTERS = ["pcss", "evsm", "msm", "lvsm", "vsm", "esm", "hard"]
 QUALITIES = ["best", "balanced", "fast"]
-COMPARE = ["raymarch", "pcss", "pcf", "hard"]
-FILTERABLE = ["evsm", "msm", "lvsm", "vsm", "esm"]
-SIDES = [1024, 2048, 4096]
-CLEARLY_LESS = 0.95
+KEYS = ["filter", "partition", "fit", "quality"]
 
 
 def techniques():
-    """Label to what is asked for, key by key."""
-    auto = {"partition": "auto", "fit": "auto"}
-    found = {f"auto, {quality}": {"filter": "auto", **auto, "quality": quality} for quality in QUALITIES}
-    for side in SIDES:
-        found.update({f"{name}, {side}²": {"filter": name, **auto, "quality": "balanced", "texels": str(side * side)}
-                      for name in COMPARE})
-    found.update({f"{name}, 2048²": {"filter": name, **auto, "quality": "balanced", "texels": str(2048 * 2048)}
-                  for name in FILTERABLE})
-    found.update({f"pcf, {partition}, {fit}, 2048²":
-                  {"filter": "pcf", "partition": partition, "fit": fit, "texels": str(2048 * 2048)}
+    """Label to the values of KEYS. Filter auto is pcf for quality fast and raymarch for the others."""
+    found = {f"auto, {quality}": ("auto", "auto", "auto", quality) for quality in QUALITIES}
+    found["pcf, auto"] = ("pcf", "auto", "auto", "balanced")
+    found.update({f"{name}, auto": (name, "auto", "auto", "balanced") for name in FILTERS})
+    found.update({f"pcf, {partition}, {fit}": ("pcf", partition, fit, "balanced")
                   for partition in PARTITIONS for fit in FITS})
+    found["plain"] = found.pop("pcf, single, uniform")
     return found
-
-
-def shadow_mib(result):
-    return sum(size for name, size in result["memory_by_purpose_bytes"].items() if not name.startswith("host")) / 2**20
 
 
 def measure(options, view):
-    """What compare says of each technique, by label: rmse, bias, frame, mib."""
+    """What compare says of each technique, by label."""
     _, scene, arguments = view
-    asked = techniques()
+    # Quality has an effect with auto only.
+    asked = ",".join("+".join(f"{key}={value}" for key, value in zip(KEYS, values)
+                              if key != "quality" or values[1] == "auto") for values in techniques().values())
     results = run(options.gnomon, "compare",
                   [scene, *arguments, "--size", options.size, "--samples", str(options.samples), "--truth", "area",
-                   "--map-size", "auto", "--techniques",
-                   ",".join("+".join(f"{key}={value}" for key, value in one.items()) for one in asked.values()),
-                   "--repetitions", str(options.repetitions), "--warmup", "1"])["results"]
-    found = {}
-    for label, wanted in asked.items():
-        # Without texels a technique has those that memory has room for.
-        wanted = {"texels": "auto", **wanted}
-        one = next(result for result in results if all(str(result["settings"][key]) == value for key, value in wanted.items()))
-        found[label] = {"rmse": one["error"]["rmse"], "bias": one["error"]["bias"], "frame": one["frame_ratio"],
-                        "mib": shadow_mib(one)}
-    return found
-
-
-def beats(one, other):
-    return one["rmse"] < CLEARLY_LESS * other["rmse"] and one["frame"] < other["frame"]
-
-
-def means(found):
-    """Label to geometric means over the views: of rmse beside the least, and of the frame."""
-    least = [min(one["rmse"] for one in view.values()) for view in found.values()]
-    return {label: {"rmse": statistics.geometric_mean(view[label]["rmse"] / best for view, best in zip(found.values(), least)),
-                    "frame": statistics.geometric_mean(view[label]["frame"] for view in found.values()),
-                    "most": max(view[label]["rmse"] / best for view, best in zip(found.values(), least))}
-            for label in techniques()}
+                   "--map-size", "auto", "--texels", str(options.texels), "--techniques", asked,
+                   "--repetitions", "3", "--warmup", "1"])["results"]
+    by_values = {tuple(one["settings"][key] for key in KEYS): one for one in results}
+    return {label: by_values[values] for label, values in techniques().items()}
 
 
 def summary(found):
-    mean = means(found)
+    """`found`: of each view, what measure() gave."""
     rows = []
-    for label, own in sorted(mean.items(), key=lambda item: item[1]["rmse"]):
-        better = [other for other in mean if beats(mean[other], own)]
-        rows.append([label, cell(own["rmse"], 2), cell(own["most"], 2),
-                     cell(statistics.median(abs(view[label]["bias"]) for view in found.values())), cell(own["frame"], 2),
-                     cell(statistics.median(view[label]["mib"] for view in found.values()), 0),
-                     min(better, key=lambda other: mean[other]["frame"]) if better else ""])
-    return table(["technique", "rmse beside the least, mean", "greatest", "mean error", "frame", "MiB", "take instead"], rows)
-
-
-def losses(found):
-    rows = []
-    for quality in QUALITIES:
-        own = f"auto, {quality}"
-        lost = {}
-        for name, view in found.items():
-            better = [label for label in view if label not in (f"auto, {one}" for one in QUALITIES) and beats(view[label], view[own])]
-            if better:
-                lost[name] = min(better, key=lambda label: view[label]["rmse"])
-        rows.append([own, f"{len(found) - len(lost)} of {len(found)}",
-                     "; ".join(f"{name} ({label})" for name, label in lost.items())])
-    return table(["quality", "views on which nothing named errs 5 % less in less time", "the others"], rows)
+    for label in techniques():
+        ratios = [view[label]["error"]["rmse"] / min(one["error"]["rmse"] for one in view.values()) for view in found.values()]
+        bias = statistics.median(abs(view[label]["error"]["bias"]) for view in found.values())
+        frame = statistics.median(view[label]["frame_ratio"] for view in found.values())
+        rows.append((statistics.geometric_mean(ratios), label, max(ratios), bias, frame))
+    columns = ["technique", "rmse beside the least, mean", "greatest", "mean error", "frame"]
+    return table(columns, [[label, cell(mean, 2), cell(most, 2), cell(bias), cell(frame, 2)]
+                           for mean, label, most, bias, frame in sorted(rows)])
 
 
 def details(found):
-    own = [label for label in techniques() if label.count(",") == 1]
-    return table(["view", *own], [[name, *(f"{cell(view[one]['rmse'])} ({cell(view[one]['frame'], 1)})" for one in own)]
-                                  for name, view in found.items()])
+    own = [label for label in techniques() if not label.startswith("pcf, ") or label == "pcf, auto"]
+    rows = []
+    for name, view in found.items():
+        rmse, label = min((view[one]["error"]["rmse"], one) for one in techniques() if one not in own)
+        rows.append([name, *(cell(view[one]["error"]["rmse"]) for one in own), f"{cell(rmse)} ({label})"])
+    return table(["view", *own, "best by name"], rows)
 
 
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--size", default="960x540")
     parser.add_argument("--samples", type=int, default=64)
-    parser.add_argument("--repetitions", type=int, default=3)
+    parser.add_argument("--texels", type=int, default=1536 * 1536)
     parser.add_argument("--only", default="")
-    parser.add_argument("--keep", type=Path)
     parser.add_argument("gnomon")
     parser.add_argument("shared", type=Path)
     options = parser.parse_args()
-    missing = False
-    if options.keep and options.keep.exists():
-        found = json.loads(options.keep.read_text())
-    else:
-        views, missing = present([view[:3] for view in VIEWS], options.shared, options.only)
-        found = {view[0]: measure(options, view) for view in views}
-        if options.keep:
-            options.keep.write_text(json.dumps(found))
+    views, missing = present([view[:3] for view in VIEWS], options.shared, options.only)
+    found = {view[0]: measure(options, view) for view in views}
     print(summary(found))
-    print(losses(found))
     print(details(found))
     return 1 if missing else 0
 

@@ -34,14 +34,14 @@ constexpr std::uint32_t kLarge = 4096;
 Settings benchSettings(const Settings& asked)
 {
     std::string techniques;
-    for (const auto& [filter, side] : {std::pair("hard", kSmall), std::pair("hard", kLarge), std::pair("pcf", kSmall),
-                                       std::pair("pcss", kSmall), std::pair("raymarch", kLarge),
-                                       std::pair("vsm", kSmall)}) {
+    for (const auto& [filter, side] :
+         {std::pair("hard", kSmall), std::pair("hard", kLarge), std::pair("pcf", kSmall), std::pair("pcss", kSmall),
+          std::pair("raymarch", kLarge), std::pair("vsm", kSmall)}) {
         techniques += fmt::format("{}filter={}+map-size={}", techniques.empty() ? "" : ",", filter, side);
     }
     std::vector<std::string> words{
-        "bench",     "rts",           "--camera",     "camp",  "--size",   "640x360",       "--set", "partition=single",
-        "--set",     "fit=uniform",   "--techniques", techniques, "--repetitions", "3",        "--warmup", "1"};
+        "bench", "rts",         "--camera",     "camp",     "--size",        "640x360", "--set",    "partition=single",
+        "--set", "fit=uniform", "--techniques", techniques, "--repetitions", "3",       "--warmup", "1"};
     if (!asked.gpu.empty()) {
         words.insert(words.end(), {"--gpu", asked.gpu});
     }

@@ -2,13 +2,13 @@
 #include "host/gpu.h"
 
 #include "abandoned.h"
+#include "cache_file.h"
 #include "check.h"
 #include "devices.h"
 #include "instance.h"
-#include "cache_file.h"
 #include "pipeline_cache.h"
-#include "stored_rates.h"
 #include "portability.h"
+#include "stored_rates.h"
 #include "threads.h"
 
 #include <gnomon/error.h>

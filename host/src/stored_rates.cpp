@@ -14,10 +14,9 @@
 namespace gnomon::host {
 namespace {
 
-constexpr double DeviceRates::*kRates[] = {&DeviceRates::rest_ns,         &DeviceRates::caster_ns,
-                                           &DeviceRates::texel_ns,        &DeviceRates::block_texel_ns,
-                                           &DeviceRates::moment_texel_ns, &DeviceRates::compare_ns,
-                                           &DeviceRates::search_ns,       &DeviceRates::ray_ns};
+constexpr double DeviceRates::*kRates[] = {
+    &DeviceRates::rest_ns,         &DeviceRates::caster_ns,  &DeviceRates::texel_ns,  &DeviceRates::block_texel_ns,
+    &DeviceRates::moment_texel_ns, &DeviceRates::compare_ns, &DeviceRates::search_ns, &DeviceRates::ray_ns};
 using Numbers = std::array<double, std::size(kRates)>;
 
 } // namespace

@@ -251,7 +251,9 @@ TEST(AutoSize, FollowsTheRatesOfTheDeviceAndTheMemoryThatThereIs)
         Planner planner(options);
         return planner.plan(frame);
     };
-    const auto sideBy = [&](const DeviceRates& rates) { return planned(rates).views.at(0).place.tile.width; };
+    const auto sideBy = [&](const DeviceRates& rates) {
+        return planned(rates).views.at(0).place.tile.width;
+    };
     DeviceRates free = ratesOf(RateSource::gpu);
     free.texel_ns = 0.0;
     DeviceRates dear = free;

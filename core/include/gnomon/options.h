@@ -223,17 +223,17 @@ struct ShadowOptions {
     Quality quality = Quality::balanced; // the effort of `automatic`
     std::optional<MapFormat> format;     // a texel's format; nothing: the filter's first format
     /// Texels on a side of one map, 16 .. 16384. Cascades that partition auto chose share the texels of one such map:
-    /// four have half the side. Nothing: the planner chooses the largest side for which the light has texels; or a half,
-    /// a quarter or an eighth of that, where finer texels are predicted to gain nothing, or less than their time is
-    /// worth (Frame::rates). Quality best and max_texels leave time out. Maps that a motion keeps are as large as
+    /// four have half the side. Nothing: the planner chooses the largest side for which the light has texels; or a
+    /// half, a quarter or an eighth of that, where finer texels are predicted to gain nothing, or less than their time
+    /// is worth (Frame::rates). Quality best and max_texels leave time out. Maps that a motion keeps are as large as
     /// possible.
     std::optional<std::uint32_t> map_size;
     /// Texels of all maps of a light together where map_size is nothing, 1024 .. 268435456 (16384 x 16384). The maps of
     /// each of a stepping sun's two positions may have this many. Nothing: as many as its memory has room for.
     std::optional<std::uint32_t> max_texels;
-    /// The memory of all maps of a sun, and of a spot or point light, where neither map_size nor max_texels is given: MiB,
-    /// 0.0625 .. 1024. It is that of the texels alone, 4 bytes for each at least; images beside maps (blocks, edges,
-    /// kept maps) are not counted. A page has as many texels as the larger of both has room for.
+    /// The memory of all maps of a sun, and of a spot or point light, where neither map_size nor max_texels is given:
+    /// MiB, 0.0625 .. 1024. It is that of the texels alone, 4 bytes for each at least; images beside maps (blocks,
+    /// edges, kept maps) are not counted. A page has as many texels as the larger of both has room for.
     double sun_memory_mib = 64.0;
     double lamp_memory_mib = 16.0; // as sun_memory_mib
     /// Receivers farther from the eye than this get no shadow, metres; 0: no limit.

@@ -103,7 +103,7 @@ struct AutoChoice {
     std::uint32_t halvings = 0;
     double time_ms = 0.0; // predicted, of a frame with this light, by Frame::rates; useful only for comparison
     RateSource rates = RateSource::gpu; // the origin of these rates
-    std::string_view reason; // a sentence with static lifetime
+    std::string_view reason;            // a sentence with static lifetime
 };
 
 /// soften=converge: the point of the light that shines in this frame (convergeSample()). The light's maps are drawn

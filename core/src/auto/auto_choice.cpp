@@ -161,10 +161,9 @@ void AutoChooser::size(const FrustumInput& input, const Candidate& taken, bool i
     for (std::uint32_t halvings = 0; halvings < times_ms.size(); ++halvings) {
         const MapWish wish = recipe.wishOf(input.light, 0, *taken.partition, halvings);
         const double texels = static_cast<double>(wish.side) * wish.side * wish.count;
-        times_ms[halvings] =
-            frameTime_ms(rates, recipe.resolved.traits(),
-                         {static_cast<double>(input.frame.size_px.x) * input.frame.size_px.y,
-                          static_cast<double>(input.receivers.size()) * wish.count, texels});
+        times_ms[halvings] = frameTime_ms(rates, recipe.resolved.traits(),
+                                          {static_cast<double>(input.frame.size_px.x) * input.frame.size_px.y,
+                                           static_cast<double>(input.receivers.size()) * wish.count, texels});
     }
     if (input.light.map_size != 0) {
         told.halvings = 0; // its side is given

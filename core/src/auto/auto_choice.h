@@ -48,8 +48,8 @@ private:
     };
     struct Memory {
         std::array<Candidate, 2> candidates;
-        std::size_t count = 0;    // number of candidates; 0: nothing is remembered
-        std::uint32_t frames = 0; // frames since all candidates were predicted
+        std::size_t count = 0;         // number of candidates; 0: nothing is remembered
+        std::uint32_t frames = 0;      // frames since all candidates were predicted
         std::uint32_t compared_at = 0; // the halvings for which they were
         AutoDecision decision;
     };

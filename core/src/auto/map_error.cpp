@@ -10,7 +10,6 @@
 namespace gnomon {
 namespace {
 
-
 /// The mean of the squared sides of a texel, in pixels, as a length; infinite where the light grazes the receiver.
 double texelInPixels(const LitPoint& point, const Warp& warp, const MapFrame& frame)
 {

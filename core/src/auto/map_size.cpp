@@ -38,7 +38,9 @@ double frameTime_ms(const DeviceRates& rates, const FilterTraits& filter, const 
 
 std::uint32_t halvingsByTime(const BySize& shares, const BySize& times_ms, std::optional<std::uint32_t> before)
 {
-    const auto product = [&](std::uint32_t halvings) { return std::sqrt(shares[halvings]) * times_ms[halvings]; };
+    const auto product = [&](std::uint32_t halvings) {
+        return std::sqrt(shares[halvings]) * times_ms[halvings];
+    };
     std::uint32_t best = 0;
     for (std::uint32_t halvings = 1; halvings <= kMostHalvings; ++halvings) {
         best = product(halvings) < product(best) ? halvings : best;

@@ -26,9 +26,9 @@ struct FrameWork {
 /// Predicted, milliseconds.
 [[nodiscard]] double frameTime_ms(const DeviceRates& rates, const FilterTraits& filter, const FrameWork& work);
 
-/// The size with the least product of rmse and time: a finer one takes a larger share more of time than it takes off the
-/// error. `shares`: of wrong pixels, whose root is as rmse. `before`: of the frame before, which is kept while another gains less than a tenth, for each change
-/// draws the map anew; nothing: there was none.
+/// The size with the least product of rmse and time: a finer one takes a larger share more of time than it takes off
+/// the error. `shares`: of wrong pixels, whose root is as rmse. `before`: of the frame before, which is kept while
+/// another gains less than a tenth, for each change draws the map anew; nothing: there was none.
 [[nodiscard]] std::uint32_t halvingsByTime(const BySize& shares, const BySize& times_ms,
                                            std::optional<std::uint32_t> before);
 

@@ -78,8 +78,8 @@ std::uint64_t texelsOf(const ShadowOptions& options, LightType type)
         return *options.max_texels;
     }
     const double memory_mib = type == LightType::directional ? options.sun_memory_mib : options.lamp_memory_mib;
-    const std::uint32_t bytes = std::max(texelBytes(formatOf(options)), kLeastBytes) *
-                                imageLayersPerMap(filterOf(options), options.moments);
+    const std::uint32_t bytes =
+        std::max(texelBytes(formatOf(options)), kLeastBytes) * imageLayersPerMap(filterOf(options), options.moments);
     return static_cast<std::uint64_t>(memory_mib * kBytesOfMiB / std::max(bytes, kLeastBytes));
 }
 
@@ -89,8 +89,7 @@ std::uint32_t largestSide(const ShadowOptions& options)
     if (options.map_size) {
         return *options.map_size;
     }
-    const std::uint64_t most =
-        std::max(texelsOf(options, LightType::directional), texelsOf(options, LightType::point));
+    const std::uint64_t most = std::max(texelsOf(options, LightType::directional), texelsOf(options, LightType::point));
     const std::uint64_t texels = options.budget_texels == 0 ? most : std::min(most, options.budget_texels);
     const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(texels)));
     return std::max(side - side % kMultiple, kMultiple);

@@ -52,9 +52,8 @@ void MultiPartition::sizeFrustums(const Input& input, Memory& memory, std::span<
             claim.staying = memory.held.fading() ? std::numeric_limits<double>::infinity() : kHoldsSide;
         }
     }
-    shares_.share(claims_,
-                  options.map_size ? std::numeric_limits<double>::infinity()
-                                 : static_cast<double>(texelsOf(options, input.light.type)));
+    shares_.share(claims_, options.map_size ? std::numeric_limits<double>::infinity()
+                                            : static_cast<double>(texelsOf(options, input.light.type)));
     for (std::size_t i = 0; i < found.size(); ++i) {
         found[i].side = claims_[i].side;
     }
