@@ -16,6 +16,7 @@
 #include <limits>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 namespace gnomon::test {
 namespace {
@@ -174,9 +175,11 @@ std::vector<DriverCase> cases()
         add(std::string("filter_") + filter, "planes", small + "--technique " + filter + "+uniform+single");
     }
     add("filter_volumes", "planes", "--mask --size 160x90 " + sun + "--technique volumes --set volumes.open=skip");
-    // A texel of the map is no larger than a few pixels: its edges, too, may be drawn otherwise.
-    const std::pair<const char*, const char*> sizes[] = {{"160x90", "256"}, {"320x180", "512"}, {"640x360", "1024"}};
-    for (const auto& [size, map] : sizes) {
+    // A texel of the map is no larger than a few pixels: its edges, too, may be drawn otherwise. One such texel says
+    // whether raymarch takes a line along an edge, or rays. Edges are as many pixels long as the picture is wide.
+    const std::tuple<const char*, const char*, std::size_t> sizes[] = {
+        {"160x90", "256", 25}, {"320x180", "512", 50}, {"640x360", "1024", 100}};
+    for (const auto& [size, map, beyond] : sizes) {
         for (const char* filter : {"raymarch", "pcss"}) {
             const std::string name = std::string(filter) + "_" + size;
             const std::string options =
@@ -186,8 +189,8 @@ std::vector<DriverCase> cases()
             add(name + "_lispsm", "planes", options + "lispsm+single " + sun);
             add(name + "_cascades", "planes", options + "cascades " + sun);
             add(name + "_cube", "planes", options + "cube" + lamp);
-            add(name + "_spot", "spotlit", options + "single", 25);
-            add(name + "_canopies", "canopies", options + "single", 25);
+            add(name + "_spot", "spotlit", options + "single", beyond);
+            add(name + "_canopies", "canopies", options + "single", beyond);
         }
     }
     for (const char* fit : {"lispsm", "lispsm-simple", "tsm", "psm", "scene"}) {

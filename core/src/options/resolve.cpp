@@ -73,6 +73,7 @@ MapFormat formatOf(const ShadowOptions& options)
 std::uint64_t texelsOf(const ShadowOptions& options, LightType type)
 {
     constexpr double kBytesOfMiB = 1024.0 * 1024.0;
+    constexpr double kMostTexels = 16384.0 * 16384.0;
     constexpr std::uint32_t kLeastBytes = 4; // a smaller texel is drawn beside its depth
     if (options.max_texels) {
         return *options.max_texels;
@@ -80,7 +81,9 @@ std::uint64_t texelsOf(const ShadowOptions& options, LightType type)
     const double memory_mib = type == LightType::directional ? options.sun_memory_mib : options.lamp_memory_mib;
     const std::uint32_t bytes =
         std::max(texelBytes(formatOf(options)), kLeastBytes) * imageLayersPerMap(filterOf(options), options.moments);
-    return static_cast<std::uint64_t>(memory_mib * kBytesOfMiB / std::max(bytes, kLeastBytes));
+    // Whatever the number, which resolve() may yet refuse.
+    const double texels = memory_mib * kBytesOfMiB / std::max(bytes, kLeastBytes);
+    return texels > 0.0 ? static_cast<std::uint64_t>(std::min(texels, kMostTexels)) : 0;
 }
 
 std::uint32_t largestSide(const ShadowOptions& options)
