@@ -193,7 +193,7 @@ const DeviceRates& Gpu::rates() const
 
 std::filesystem::path Gpu::keepRates(const DeviceRates& rates) const
 {
-    const std::filesystem::path file = cacheFile(impl_->properties, "rates");
+    std::filesystem::path file = cacheFile(impl_->properties, "rates");
     storeRates(rates, file);
     return file;
 }
