@@ -150,7 +150,7 @@ Prediction FrustumPlanner::predictHalf(const FrustumInput& input, const Sight& s
     const Warp none;
     const MapFrame frame = frameOfDisc(input);
     const double feature_m = kFeature_px * sight.meanPixel_m();
-    return {mapErrorOf(lit_, none, frame, feature_m),
+    return {mapErrorOf(lit_, none, frame, feature_m, kFineEnough_px),
             edgesBySize(lit_, none, frame, feature_m, input.halvings),
             coarsestTexel_px(lit_, none, frame, texels_px_),
             facingTexels(lit_, none, frame, texels_px_),

@@ -82,12 +82,13 @@ glm::dmat2 texelFromPixel(const LitPoint& point, const Warp& warp, const MapFram
     return {texels(point.q_from_pixel[0]), texels(point.q_from_pixel[1])};
 }
 
-MapError mapErrorOf(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame, double feature_m)
+MapError mapErrorOf(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame, double feature_m,
+                    double finest_px)
 {
     MapError error;
     for (const LitPoint& point : points) {
         const double texel_px = texelInPixels(point, warp, frame);
-        const double texel_m = std::max(texel_px, kFineEnough_px) * point.pixel_m;
+        const double texel_m = std::max(texel_px, finest_px) * point.pixel_m;
         error.sum += std::isfinite(texel_m) ? texel_m / (texel_m + feature_m) : 1.0;
         error.log_texels -= std::isfinite(texel_px) && texel_px > 0.0 ? std::log(texel_px) : 0.0;
     }

@@ -48,14 +48,16 @@ struct MapError {
 };
 
 /// The edge of a shadow is off by about a texel, so of a shadow of size f a texel of length t gets a share of about
-/// t / (t + f) wrong. A texel smaller than kFineEnough_px is no better than one of that size. `feature_m`: f. Lengths
+/// t / (t + f) wrong. A texel smaller than `finest_px` is no better than one of that size. `feature_m`: f. Lengths
 /// are those on the receiver: so much of the picture is wrong where things are far off and their shadows small, and
 /// counting texels in pixels alone gives the near end too much of the map (docs/techniques/auto.md has figures).
 [[nodiscard]] MapError mapErrorOf(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
-                                  double feature_m);
+                                  double feature_m, double finest_px);
 
 /// Edges gain by still finer texels, if little: finer than this is more than is of use.
 inline constexpr double kFineEnough_px = 0.125;
+/// Where texels are shared among frustums (partition multi): one that has these gives way to those that do not.
+inline constexpr double kEnoughForOne_px = 0.5;
 /// Natural logarithms of the shares of wrong pixels that mapErrorOf() sums up, themselves summed over the points, by
 /// how often the map's largest side is halved: `frame` is that of a map halved `halvings` times. In their geometric
 /// mean the few points that the light grazes, which are all wrong with any map, do not count for more than others.

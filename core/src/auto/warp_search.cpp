@@ -81,7 +81,7 @@ MapError WarpTrial::errorAt(double strength) const
     const LightRect rect = !places.empty() ? rectOf(warp, places)
                            : warp.warped() ? rectOf(warp, fit.outline)
                                            : unwarped;
-    return mapErrorOf(points, warp, frameOf(rect, least_size, map_size, border_texels), feature_m);
+    return mapErrorOf(points, warp, frameOf(rect, least_size, map_size, border_texels), feature_m, finest_px);
 }
 
 Warp warpOfStrength(const FitInput& input, const ViewSlope& slope, double strength)

@@ -23,6 +23,7 @@ struct WarpTrial {
     /// map. Else empty: the map covers the whole outline.
     std::span<const glm::dvec2> places;
     double feature_m = 0.0;
+    double finest_px = kFineEnough_px; // as mapErrorOf() has it
 
     /// A strength is the greatest w of the outline; 1: no warp.
     [[nodiscard]] MapError errorAt(double strength) const;
