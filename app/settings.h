@@ -130,6 +130,7 @@ struct Settings {
     // run
     std::uint64_t seed = 0;
     std::string gpu;
+    std::optional<DeviceRates> rates; // nothing: as the device has them
     bool validate = false;
     bool strict = false; // an option that has no effect is refused
     scene::Limits limits;
@@ -182,6 +183,7 @@ inline constexpr std::uint32_t kView = 128;
 inline constexpr std::uint32_t kCompletion = 256;
 inline constexpr std::uint32_t kMan = 512;
 inline constexpr std::uint32_t kGpus = 1024;
+inline constexpr std::uint32_t kCalibrate = 2048;
 inline constexpr std::uint32_t kPictures = kRender | kBench | kView; // all that draw pictures
 inline constexpr std::uint32_t kDraw = kPictures | kCompare;         // all that draw
 inline constexpr std::uint32_t kFrames = kDraw | kPlan;              // all that take a scene

@@ -2,11 +2,14 @@
 // The program's own Vulkan device: picks it, makes it, hears its validation messages.
 #pragma once
 
+#include <gnomon/device_rates.h>
 #include <gnomon/vulkan/device_view.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +30,8 @@ struct GpuOptions {
     /// host/window/interface.h fills them in. Empty: no window.
     std::vector<const char*> surface_extensions;
     bool (*presents)(VkInstance instance, VkPhysicalDevice device, std::uint32_t queue_family) = nullptr;
+    /// Nothing: those that were kept, or else the table's for this kind of device.
+    std::optional<DeviceRates> rates;
     vulkan::ShaderHook shaders; // for the host's shaders too
 };
 
@@ -50,6 +55,12 @@ public:
     [[nodiscard]] bool formatCan(VkFormat format, VkFormatFeatureFlags uses) const;
     /// On-disk pipeline cache, loaded from and stored to the user's cache folder. Never VK_NULL_HANDLE.
     [[nodiscard]] VkPipelineCache pipelineCache() const;
+
+    /// GpuOptions::rates.
+    [[nodiscard]] const DeviceRates& rates() const;
+    /// Keeps rates for later runs on this device with this driver, and gives the file. Throws Error where it cannot be
+    /// written.
+    std::filesystem::path keepRates(const DeviceRates& rates) const; // NOLINT(modernize-use-nodiscard)
 
     [[nodiscard]] double patience_s() const;
     void lookUp() const; // calls GpuOptions::while_waiting

@@ -26,6 +26,7 @@ from pathlib import Path
 from sources import project_root
 
 SIZE = "400x225"
+TEXELS = "4194304"
 SAMPLES = "64"
 LARGEST_FILM = 1_000_000  # bytes
 BEGINS, ENDS = "<!-- what tools/make_gallery.py writes begins -->", "<!-- and ends -->"
@@ -69,7 +70,7 @@ class Gallery:
             encode("-i", drawn, "-q:v", "2", "-map_metadata", "-1", "-bitexact", self.docs / "gallery" / f"{name}.jpg")
 
     def shown(self, part: dict) -> list[str]:
-        return self.words_of("render", part["view"], ["--technique", part["technique"], *part.get("arguments", [])])
+        return self.words_of("render", part["view"], ["--texels", TEXELS, "--technique", part["technique"], *part.get("arguments", [])])
 
     def truth(self, view: str) -> list[str]:
         return self.words_of("render", view, ["--truth", "area", "--samples", SAMPLES])
@@ -77,7 +78,7 @@ class Gallery:
     def comparison(self, entry: dict) -> list[str]:
         base = self.views[entry["view"]]["base"]
         both = base if base == entry["technique"] else f"{base},{entry['technique']}"
-        return self.words_of("compare", entry["view"], ["--techniques", both, "--samples", SAMPLES, "--repetitions", "3", *entry.get("arguments", [])])
+        return self.words_of("compare", entry["view"], ["--texels", TEXELS, "--techniques", both, "--samples", SAMPLES, "--repetitions", "3", *entry.get("arguments", [])])
 
     def figures(self, entry: dict) -> str:
         """How far it is from the truth, and what it costs."""

@@ -116,7 +116,7 @@ bool isStrayFile(std::string_view word, const Subcommand& subcommand)
     if (subcommand.bit == kList) {
         return !word.starts_with("-") && !isListed(word);
     }
-    if (subcommand.bit == kGpus) {
+    if (subcommand.bit == kGpus || subcommand.bit == kCalibrate) {
         return false; // it takes no words, which is said of any
     }
     return !word.starts_with("-") && !hasExtension(word, ".gltf") && !hasExtension(word, ".glb") &&

@@ -116,6 +116,7 @@ private:
         frame_.size_px = settings_.size_px;
         frame_.lights = lights_;
         frame_.objects = &objects_;
+        frame_.rates = settings_.rates.value_or(ratesOf(RateSource::gpu)); // no device is asked
         plan_ = &planner_.plan(frame_);
         if (index != settings_.frames.value_or(FrameRange{}).first) { // in which all maps are drawn
             waits_.take(*plan_);

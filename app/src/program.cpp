@@ -34,6 +34,8 @@ constexpr std::array kSubcommands{
                "Prints the choices and what is refused and why, or one NAME in full.", runList},
     Subcommand{"gpus", kGpus, "[options]", "Lists this machine's GPUs: what each can, what is left out and why.",
                runGpus},
+    Subcommand{"calibrate", kCalibrate, "[options]",
+               "Measures how fast this device is, by which auto weighs error against time.", runCalibrate},
     Subcommand{"completion", kCompletion, "bash|zsh|fish", "Prints the shell's completion of gnomon's command lines.",
                runCompletion},
     Subcommand{"man", kMan, "", "Prints the manual page, for man to show.", runMan},

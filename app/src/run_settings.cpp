@@ -105,6 +105,23 @@ bool draws(const Settings& s)
     }
     return !(s.mask && s.truth.has_value());
 }
+Names rateKinds()
+{
+    return {"auto", nameOf(RateSource::gpu), nameOf(RateSource::software)};
+}
+void applyRates(Settings& s, const Value& v)
+{
+    s.rates.reset();
+    for (const RateSource source : {RateSource::gpu, RateSource::software}) {
+        if (v.text == nameOf(source)) {
+            s.rates = ratesOf(source);
+        }
+    }
+}
+bool sizesByTime(const Settings& s)
+{
+    return !s.shadow.map_size && !s.shadow.max_texels && hasMaps(s.shadow);
+}
 bool judgesALight(const Settings& s)
 {
     return s.mask || (s.debug != "none" && s.debug != "light-count") || s.subcommand == kCompare || !s.draw.empty();
@@ -248,7 +265,9 @@ const std::vector<Setting>& rows()
         {.key = "seed", .group = Group::run, .type = integer, .form = "N", .default_text = "1", .min = 0, .max = 9e15,
          .doc = "everything random", .apply = [](Settings& s, const Value& v) { s.seed = static_cast<std::uint64_t>(v.integer); }},
         {.key = "gpu", .group = Group::run, .type = text, .form = "NAME", .doc = "part of a GPU's name, or software; else the first real one",
-         .used = draws, .used_when = "something to draw", .offers = [] { return std::vector<Offer>{{"software", "the software rasteriser"}}; }, .apply = [](Settings& s, const Value& v) { s.gpu = v.text; }},
+         .subcommands = kFrames | kCalibrate, .used = draws, .used_when = "something to draw", .offers = [] { return std::vector<Offer>{{"software", "the software rasteriser"}}; }, .apply = [](Settings& s, const Value& v) { s.gpu = v.text; }},
+        {.key = "rates", .group = Group::run, .type = choice, .form = "KIND", .default_text = "auto", .choices = rateKinds, .doc = "how fast the device is, to auto: as calibrate found it, or the table's: gpu or software",
+         .own_option = false, .used = sizesByTime, .used_when = "map-size and texels auto, but filter volumes", .apply = applyRates},
         {.key = "validate", .group = Group::run, .type = flag, .default_text = "0", .doc = "Vulkan validation; a message makes the run fail",
          .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.validate = v.flag; }},
         {.key = "strict", .group = Group::run, .type = flag, .default_text = "0", .doc = "refuse options without effect, which are told else",
@@ -283,7 +302,7 @@ const std::vector<Setting>& rows()
         {.key = "sweep", .group = Group::result, .type = text, .form = "KEY=FROM:TO:STEPS[:log]", .doc = "the error of each technique over values of any number",
          .subcommands = kCompare, .apply = applySweep},
         {.key = "json", .group = Group::result, .type = text, .form = "[FILE]", .doc = "JSON to FILE (*.json), or to stdout with - or nothing",
-         .subcommands = kPlan | kBench | kList | kCompare | kMetrics | kGpus, .command_line_only = true, .files = "json", .apply = [](Settings& s, const Value& v) { s.json = v.text; }},
+         .subcommands = kPlan | kBench | kList | kCompare | kMetrics | kGpus | kCalibrate, .command_line_only = true, .files = "json", .apply = [](Settings& s, const Value& v) { s.json = v.text; }},
         // clang-format on
     };
     return table;

@@ -16,6 +16,7 @@ int runPlan(const Settings& settings);
 int runBench(const Settings& settings);
 int runList(const Settings& settings);
 int runGpus(const Settings& settings);
+int runCalibrate(const Settings& settings);
 int runView(const Settings& settings);
 int runCompletion(const Settings& settings);
 int runMan(const Settings& settings);

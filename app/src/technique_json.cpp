@@ -127,7 +127,7 @@ Json mapJson(const MapPages& atlas, const ShadowOptions& options)
     }
     const bool is_empty = atlas.width == 0 || atlas.height == 0;
     return {{"texels", std::uint64_t{atlas.width} * atlas.height * atlas.layers},
-            {"bytes", is_empty ? 0 : stored * atlas.layers * image_layers * lab::texelBytes(formatOf(options))},
+            {"bytes", is_empty ? 0 : stored * atlas.layers * image_layers * texelBytes(formatOf(options))},
             {"format", nameOf(formatOf(options))},
             {"image_layers", atlas.layers * image_layers},
             {"mip_levels", levels}};

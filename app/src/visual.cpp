@@ -39,8 +39,11 @@ void noteLevels(const Settings& technique)
 std::unique_ptr<host::Gpu> openGpu(const Settings& settings, const host::Window* window,
                                    const vulkan::ShaderHook& shaders)
 {
-    host::GpuOptions options{
-        .gpu = settings.gpu, .validate = settings.validate, .while_waiting = requireNotInterrupted, .shaders = shaders};
+    host::GpuOptions options{.gpu = settings.gpu,
+                             .validate = settings.validate,
+                             .while_waiting = requireNotInterrupted,
+                             .rates = settings.rates,
+                             .shaders = shaders};
     if (window != nullptr) {
         options = host::forWindow(options, *window);
     }

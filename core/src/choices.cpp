@@ -355,6 +355,33 @@ std::optional<MapFormat> findMapFormat(std::string_view name)
     return findIn(kFormats, name);
 }
 
+std::uint32_t texelBytes(MapFormat format)
+{
+    switch (format) {
+    case MapFormat::r8:
+        return 1;
+    case MapFormat::r16f:
+    case MapFormat::d16:
+    case MapFormat::r16:
+    case MapFormat::rg8:
+        return 2;
+    case MapFormat::d32f:
+    case MapFormat::r32f:
+    case MapFormat::rg16:
+    case MapFormat::rg16f:
+    case MapFormat::rgba8:
+    case MapFormat::d24:
+        return 4;
+    case MapFormat::rg32f:
+    case MapFormat::rgba16:
+    case MapFormat::rgba16f:
+        return 8;
+    case MapFormat::rgba32f:
+        return 16;
+    }
+    return 0;
+}
+
 const FilterTraits* filterTraits(Filter filter)
 {
     for (const FilterTraits& row : kFilters) {

@@ -9,7 +9,7 @@ bool FrameMemory::holds(const Frame& frame) const
 {
     return known_ && frame.objects != nullptr && frame.objects->identity() == objects_ &&
            frame.objects->version() == version_ && frame.size_px == size_px_ && frame.camera == camera_ &&
-           frame.clamps_depth == clamps_depth_ && std::ranges::equal(frame.layers, layers_) &&
+           frame.clamps_depth == clamps_depth_ && frame.rates == rates_ && std::ranges::equal(frame.layers, layers_) &&
            std::ranges::equal(frame.lights, lights_);
 }
 
@@ -24,6 +24,7 @@ void FrameMemory::note(const Frame& frame)
     camera_ = frame.camera;
     size_px_ = frame.size_px;
     clamps_depth_ = frame.clamps_depth;
+    rates_ = frame.rates;
     lights_.assign(frame.lights.begin(), frame.lights.end());
     layers_.assign(frame.layers.begin(), frame.layers.end());
     objects_ = known_ ? frame.objects->identity() : 0;

@@ -24,6 +24,7 @@ private:
     std::vector<WorldLayer> layers_;
     glm::uvec2 size_px_{0};
     bool clamps_depth_ = true;
+    DeviceRates rates_;
     std::vector<Light> lights_;
     std::uint64_t objects_ = 0; // ObjectSet::identity()
     std::uint64_t version_ = 0;

@@ -125,11 +125,12 @@ Prediction FrustumPlanner::predict(const FrustumInput& input, const Sight& sight
     lightPoints(lie.space, sight.points(), input.slice.depth, input.slice.sector, lit_);
     outlinePlaces(input, lie);
     const double feature_m = kFeature_px * sight.meanPixel_m();
+    const double finest_px = input.recipe.grows() ? kEnoughForOne_px : kFineEnough_px;
     FrustumInput drawn = input;
     if (input.recipe.searchesWarp()) {
         const FitInput fit = fitInputOf(input, lie);
         strength = nextStrength({fit, slopeOfBody(fit), region_.rect(), lie.least_size, input.map_size,
-                                 lie.border_texels, lit_, places_, feature_m},
+                                 lie.border_texels, lit_, places_, feature_m, finest_px},
                                 strength);
         drawn.strength = strength;
     }
@@ -140,7 +141,11 @@ Prediction FrustumPlanner::predict(const FrustumInput& input, const Sight& sight
     const FacingTexels facing =
         lit_.empty() ? facingAmid(input, sight, lie, warp, frame) : facingTexels(lit_, warp, frame, texels_px_);
     const glm::dvec2 size = frame.half - frame.texel * lie.border_texels;
-    return {mapErrorOf(lit_, warp, frame, feature_m), coarsestTexel_px(lit_, warp, frame, texels_px_), facing, true,
+    return {mapErrorOf(lit_, warp, frame, feature_m, finest_px),
+            edgesBySize(lit_, warp, frame, feature_m, input.halvings),
+            coarsestTexel_px(lit_, warp, frame, texels_px_),
+            facing,
+            true,
             2.0 * std::max(size.x, size.y)};
 }
 

@@ -28,10 +28,12 @@ struct FrustumInput {
     std::span<const WorldLayer> layers{}; // with layers of the world
     const Sight* sight = nullptr;         // by which a warp is held against none; null: it is as its fit says
     ViewGround* ground = nullptr;         // null, or where to say what the view was planned for
+    std::uint32_t halvings = 0;           // for predict(): how many times the largest side was halved to map_size
 };
 
 struct Prediction {
     MapError error;
+    BySize edges{};           // edgesBySize()
     double coarsest_px = 0.0; // coarsestTexel_px()
     FacingTexels facing;      // where there is no point, of one amid what is seen, which counts for half a one
     bool lies = false;        // the slice has receivers, so it may have a map

@@ -149,8 +149,13 @@ Prediction FrustumPlanner::predictHalf(const FrustumInput& input, const Sight& s
     }
     const Warp none;
     const MapFrame frame = frameOfDisc(input);
-    return {mapErrorOf(lit_, none, frame, kFeature_px * sight.meanPixel_m()),
-            coarsestTexel_px(lit_, none, frame, texels_px_), facingTexels(lit_, none, frame, texels_px_), true, 2.0};
+    const double feature_m = kFeature_px * sight.meanPixel_m();
+    return {mapErrorOf(lit_, none, frame, feature_m, kFineEnough_px),
+            edgesBySize(lit_, none, frame, feature_m, input.halvings),
+            coarsestTexel_px(lit_, none, frame, texels_px_),
+            facingTexels(lit_, none, frame, texels_px_),
+            true,
+            2.0};
 }
 
 Outcome FrustumPlanner::planHalf(const FrustumInput& input, View& view, std::vector<std::uint32_t>& casters)

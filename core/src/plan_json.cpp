@@ -122,6 +122,8 @@ void writeChoice(JsonWriter& json, const AutoChoice& choice)
     json.value("error", choice.error);
     json.value("other_error", choice.other_error);
     json.value("halvings", choice.halvings);
+    json.value("time_ms", choice.time_ms);
+    json.value("rates", nameOf(choice.rates));
     json.value("reason", choice.reason);
     json.closeLine('}');
 }

@@ -74,7 +74,7 @@ bool Recipe::pairs(const Light& light) const
 MapWish Recipe::wishOf(const Light& light, std::uint32_t index, const PartitionTraits& divided,
                        std::uint32_t halvings) const
 {
-    const std::uint32_t largest = resolved.largest_side();
+    const std::uint32_t largest = resolved.largestSide(light.type);
     MapWish wish;
     wish.options = index;
     wish.side = light.map_size == 0 ? largest : std::clamp(light.map_size, kSmallestMap, largest);

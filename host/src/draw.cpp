@@ -282,6 +282,7 @@ void FrameRenderer::Impl::makePlan(Maps maps, bool masked_instead)
             shadows->planner.reset();
         }
         frame.draw_ms_per_texel = shadows->draw_rate.msPerTexel();
+        frame.rates = scene.gpu.rates();
         frame.clamps_depth = scene.gpu.view().features.depth_clamp;
         frame.requests = shadows->renderer.pageRequests(slot);
         plan = shadows->plan = &shadows->planner.plan(frame);

@@ -2,11 +2,13 @@
 #include "host/gpu.h"
 
 #include "abandoned.h"
+#include "cache_file.h"
 #include "check.h"
 #include "devices.h"
 #include "instance.h"
 #include "pipeline_cache.h"
 #include "portability.h"
+#include "stored_rates.h"
 #include "threads.h"
 
 #include <gnomon/error.h>
@@ -34,6 +36,7 @@ struct Gpu::Impl {
     std::string driver;
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
     VkPipelineCache cache = VK_NULL_HANDLE;
+    DeviceRates rates;
     std::filesystem::path cache_file;
     mutable std::mutex mutex; // validation may speak from any thread
     std::vector<std::string> messages;
@@ -146,7 +149,9 @@ Gpu::Gpu(const GpuOptions& options) : impl_(std::make_unique<Impl>())
     }
     impl_->view.physical_device = pickDevice(impl_->view.instance, options);
     impl_->makeDevice(options);
-    impl_->cache_file = pipelineCacheFile(impl_->properties);
+    impl_->cache_file = cacheFile(impl_->properties, "pipelines");
+    const DeviceRates of_kind = ratesOf(software() ? RateSource::software : RateSource::gpu);
+    impl_->rates = options.rates.value_or(loadRates(cacheFile(impl_->properties, "rates")).value_or(of_kind));
     impl_->cache = loadPipelineCache(impl_->view.device, impl_->cache_file);
 }
 
@@ -181,6 +186,18 @@ bool Gpu::software() const
 {
     return isSoftware(impl_->properties);
 }
+const DeviceRates& Gpu::rates() const
+{
+    return impl_->rates;
+}
+
+std::filesystem::path Gpu::keepRates(const DeviceRates& rates) const
+{
+    std::filesystem::path file = cacheFile(impl_->properties, "rates");
+    storeRates(rates, file);
+    return file;
+}
+
 bool Gpu::formatCan(VkFormat format, VkFormatFeatureFlags uses) const
 {
     return canBe(impl_->view.physical_device, format, uses);

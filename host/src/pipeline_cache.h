@@ -8,9 +8,6 @@
 
 namespace gnomon::host {
 
-/// $XDG_CACHE_HOME/gnomon or ~/.cache/gnomon, and in it one file per device and driver version; empty when neither
-/// variable is set.
-[[nodiscard]] std::filesystem::path pipelineCacheFile(const VkPhysicalDeviceProperties& properties);
 /// A cache with the file's content, or an empty one when the file is absent, torn or of another driver.
 [[nodiscard]] VkPipelineCache loadPipelineCache(VkDevice device, const std::filesystem::path& file);
 /// Writes the file whole or not at all. Where the folder cannot be written to there is no file and no error, because

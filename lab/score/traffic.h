@@ -14,9 +14,6 @@
 
 namespace gnomon::lab {
 
-/// The bytes of one texel of a map, colour or depth as the filter reads it.
-[[nodiscard]] std::uint32_t texelBytes(MapFormat format);
-
 /// Texels of a view's map and of its kept layer that a frame renders; where a map is restored from a kept layer, only
 /// the texels drawn over. `redraws_all`: all maps are drawn.
 [[nodiscard]] std::uint64_t texelsRendered(const View& view, bool redraws_all);

@@ -20,16 +20,34 @@ layout(push_constant) uniform Push
     ivec4 last;  // texels or blocks of the source to read at most: x, y
 };
 
-int sourceAt(ivec2 at)
-{
-    ivec3 place = ivec3(min(at, last.xy), first.z);
 #ifdef FROM_MAP
-    float depth = texelFetch(source, place, 0).x;
-    return blockOf(depth, depth);
-#else
-    return int(imageLoad(source, place).x);
-#endif
+float depthAt(ivec2 at)
+{
+    return texelFetch(source, ivec3(min(at, last.xy), first.z), 0).x;
 }
+
+// Of the four texels from `at` on.
+int blockFrom(ivec2 at)
+{
+    vec4 depths = vec4(depthAt(at), depthAt(at + ivec2(1, 0)), depthAt(at + ivec2(0, 1)), depthAt(at + ivec2(1, 1)));
+    // min() and max() may leave out a NaN, but a sum does not.
+    float any = (depths.x + depths.y) + (depths.z + depths.w);
+    float nearest = min(min(depths.x, depths.y), min(depths.z, depths.w));
+    float farthest = max(max(depths.x, depths.y), max(depths.z, depths.w));
+    return any == any ? blockOf(nearest, farthest) : blockOf(any, any);
+}
+#else
+int blockAt(ivec2 at)
+{
+    return int(imageLoad(source, ivec3(min(at, last.xy), first.z)).x);
+}
+
+int blockFrom(ivec2 at)
+{
+    return joinedBlocks(joinedBlocks(blockAt(at), blockAt(at + ivec2(1, 0))),
+                        joinedBlocks(blockAt(at + ivec2(0, 1)), blockAt(at + ivec2(1, 1))));
+}
+#endif
 
 void main()
 {
@@ -37,9 +55,7 @@ void main()
     int whole = 0;
     for (int i = 0; i < 4; ++i) {
         ivec2 part = 2 * me + ivec2(i & 1, i >> 1);
-        ivec2 at = 2 * part;
-        int block = joinedBlocks(joinedBlocks(sourceAt(at), sourceAt(at + ivec2(1, 0))),
-                                 joinedBlocks(sourceAt(at + ivec2(0, 1)), sourceAt(at + ivec2(1, 1))));
+        int block = blockFrom(2 * part);
         if (all(lessThan(part, imageSize(finer).xy))) {
             imageStore(finer, ivec3(part, first.z), uvec4(uint(block)));
         }

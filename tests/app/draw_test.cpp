@@ -238,9 +238,9 @@ TEST(DebugViews, RaysSaysHowManyThereAreAndWhereTheyCameToTheirCeiling)
         EXPECT_LE(ceiling, rays);
         return rays;
     };
-    const double narrow = shares("1");
+    const double narrow = shares("4");
     EXPECT_GT(narrow, 0.0);
-    EXPECT_GT(shares("8"), narrow) << "a wider light has wider penumbrae";
+    EXPECT_GT(shares("16"), narrow) << "a wider light has wider penumbrae";
 }
 
 TEST(DebugViews, AreRefusedWhereThereIsNothingToShow)

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,28 @@ TEST(Gpus, TakeNoWordsAndNoOptionsOfPictures)
     EXPECT_EQ(run({"gpus", "rts"}).status, 2);
     EXPECT_EQ(run({"gpus", "--json", "rts"}).status, 2);
     EXPECT_EQ(run({"gpus", "--size", "8x8"}).status, 2);
+}
+
+TEST(Calibrate, KeepsRatesThatAutoGoesByUntilATableIsNamed)
+{
+    const test::Folder folder;
+    const test::How how{.folder = folder.path(), .environment = {{"XDG_CACHE_HOME", (folder / "cache").string()}}};
+    const test::Ran ran = test::gnomon({"calibrate", "--gpu", "software", "--json"}, how);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const json found = json::parse(ran.out);
+    EXPECT_TRUE(exists(std::filesystem::path(found.at("file").get<std::string>())));
+    for (const auto& [name, ns] : found.at("rates").items()) {
+        EXPECT_GE(ns.get<double>(), 0.0) << name;
+    }
+    EXPECT_GT(found.at("rates").at("texel_ns").get<double>(), 0.0);
+    EXPECT_GT(found.at("rates").at("ray_ns").get<double>(), found.at("rates").at("compare_ns").get<double>());
+}
+
+TEST(Calibrate, TakesNoWordsAndNoOptionsOfPictures)
+{
+    EXPECT_EQ(run({"calibrate", "rts"}).status, 2);
+    EXPECT_EQ(run({"calibrate", "--size", "8x8"}).status, 2);
+    EXPECT_EQ(run({"calibrate", "--gpu", "no such device"}).status, 1);
 }
 
 } // namespace

@@ -161,8 +161,9 @@ TEST(AutoChoice, SaysWhatItTookAndWhy)
 }
 
 /// Whatever was chosen, the light's maps have as many texels as one map of map_size at most.
-TEST(AutoChoice, SpendsTheTexelsOfOneMapByEveryQuality)
+TEST(AutoChoice, SpendsTheMemoryOfOneMapByEveryQuality)
 {
+    constexpr std::uint64_t kMost = 64U << 18U; // texels of 4 bytes in 64 MiB
     for (const Quality quality : {Quality::fast, Quality::balanced, Quality::best})
         for (const double pitch : {0.0, 0.3, 1.2}) {
             const Stage stage = meadow(1.7, pitch);
@@ -173,7 +174,7 @@ TEST(AutoChoice, SpendsTheTexelsOfOneMapByEveryQuality)
                 texels += std::uint64_t{view.place.tile.width} * view.place.tile.height;
                 EXPECT_EQ(view.projection.gpu_cascade != kNoIndex, quality == Quality::best);
             }
-            EXPECT_LE(texels, std::uint64_t{kSide} * kSide);
+            EXPECT_LE(texels, kMost);
             EXPECT_GE(plan.views.size(), 1U);
             if (quality != Quality::balanced) {
                 EXPECT_EQ(plan.views.size(), 1U);
@@ -227,6 +228,52 @@ TEST(AutoSize, IsHalvedToAnEighthOfAPixelAndKeptToASixth)
     EXPECT_EQ(halvingsFor(std::numeric_limits<double>::infinity(), 2), 0U) << "light along a wall";
 }
 
+TEST(AutoSize, IsTheLeastProductOfRmseAndTime)
+{
+    const BySize shares{1.0, 4.0, 16.0, 64.0}; // each halving doubles rmse
+    EXPECT_EQ(halvingsByTime(shares, {1.9, 1.0, 1.0, 1.0}, std::nullopt), 0U) << "less than twice the time";
+    EXPECT_EQ(halvingsByTime(shares, {8.4, 4.1, 1.9, 1.0}, std::nullopt), 2U);
+    EXPECT_EQ(halvingsByTime(shares, {2.1, 1.0, 1.0, 1.0}, 0), 0U) << "kept: a twentieth is no reason to draw anew";
+    EXPECT_EQ(halvingsByTime(shares, {2.3, 1.0, 1.0, 1.0}, 0), 1U);
+    EXPECT_EQ(halvingsByTime({1.0, 1.0, 1.0, 1.0}, {4.0, 3.0, 2.0, 1.0}, std::nullopt), 3U) << "all are fine enough";
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(halvingsByTime(shares, {nan, nan, nan, nan}, std::nullopt), 0U) << "a host's rates are no numbers";
+}
+
+TEST(AutoSize, FollowsTheRatesOfTheDeviceAndTheMemoryThatThereIs)
+{
+    Stage stage = meadow(1.7, 0.3);
+    ShadowOptions options = automatic();
+    options.technique.partition = Partition::single;
+    const auto planned = [&](const DeviceRates& rates) {
+        Frame frame = frameOf(stage);
+        frame.rates = rates;
+        Planner planner(options);
+        return planner.plan(frame);
+    };
+    const auto sideBy = [&](const DeviceRates& rates) {
+        return planned(rates).views.at(0).place.tile.width;
+    };
+    DeviceRates free = ratesOf(RateSource::gpu);
+    free.texel_ns = 0.0;
+    DeviceRates dear = free;
+    dear.texel_ns = 1e6;
+    EXPECT_EQ(sideBy(free), 4096U);
+    EXPECT_EQ(sideBy(dear), 512U);
+    const AutoChoice choice = planned(ratesOf(RateSource::software)).lights[0].choice;
+    EXPECT_EQ(choice.rates, RateSource::software);
+    EXPECT_GT(choice.time_ms, 0.0);
+    options.quality = Quality::best;
+    options.technique.motion = Motion::free;
+    EXPECT_EQ(sideBy(dear), 4096U) << "best leaves time out";
+    options.quality = Quality::balanced;
+    options.sun_memory_mib = 4.0;
+    options.lamp_memory_mib = 4.0;
+    EXPECT_EQ(sideBy(free), 1024U);
+    options.max_texels = 2048 * 2048;
+    EXPECT_EQ(sideBy(dear), 2048U) << "texels that were asked for are spent";
+}
+
 /// A lamp over the ground, so far off that its light covers few pixels.
 Stage lampAt(double distance_m)
 {
@@ -251,7 +298,7 @@ TEST(AutoSize, OfALampFarOffIsSmallAndDoesNotFlicker)
         Planner planner(options);
         return sideAt(planner, lampAt(distance_m));
     };
-    EXPECT_EQ(freshSideAt(8.0), kSide);
+    EXPECT_EQ(freshSideAt(8.0), kSide) << "16 MiB";
     EXPECT_LT(freshSideAt(120.0), kSide);
     Planner told(options);
     EXPECT_LT(sideAt(told, lampAt(120.0)), kSide);

@@ -37,18 +37,68 @@ TEST(Gpu, ListsEveryDeviceThatItRefuses)
     }
 }
 
+namespace fs = std::filesystem;
+
+/// A folder for what is kept between runs, instead of the user's.
+class CacheFolder {
+public:
+    CacheFolder()
+    {
+        const char* old = std::getenv("XDG_CACHE_HOME");
+        before_ = old != nullptr ? old : "";
+        use(path_);
+    }
+    ~CacheFolder()
+    {
+        fs::remove_all(path_);
+        if (before_.empty()) {
+            ::unsetenv("XDG_CACHE_HOME");
+        } else {
+            use(before_);
+        }
+    }
+    CacheFolder(const CacheFolder&) = delete;
+    CacheFolder& operator=(const CacheFolder&) = delete;
+
+    static void use(const fs::path& path) { ::setenv("XDG_CACHE_HOME", path.c_str(), 1); }
+    [[nodiscard]] fs::directory_iterator files() const { return fs::directory_iterator(path_ / "gnomon"); }
+
+private:
+    fs::path path_ = fs::temp_directory_path() / ("gnomon-host-test-" + std::to_string(::getpid()));
+    std::string before_;
+};
+
+TEST(Gpu, KeepsMeasuredRatesAndIgnoresATornFileOfThem)
+{
+    const CacheFolder folder;
+    DeviceRates rates = ratesOf(RateSource::gpu);
+    rates.texel_ns = 0.125;
+    fs::path file;
+    {
+        const Gpu gpu({.gpu = "software"});
+        EXPECT_EQ(gpu.rates(), ratesOf(RateSource::software)) << "none were kept";
+        file = gpu.keepRates(rates);
+    }
+    rates.source = RateSource::measured;
+    EXPECT_EQ(Gpu({.gpu = "software"}).rates(), rates);
+    EXPECT_EQ(Gpu({.gpu = "software", .rates = ratesOf(RateSource::gpu)}).rates(), ratesOf(RateSource::gpu));
+    rates.ray_ns = -1.0;
+    EXPECT_EQ(Gpu({.gpu = "software"}).keepRates(rates), file);
+    EXPECT_EQ(Gpu({.gpu = "software"}).rates(), ratesOf(RateSource::software)) << "no time is below 0";
+    fs::resize_file(file, fs::file_size(file) / 2);
+    EXPECT_EQ(Gpu({.gpu = "software"}).rates(), ratesOf(RateSource::software));
+    CacheFolder::use("/dev/null");
+    EXPECT_THROW((void)Gpu({.gpu = "software"}).keepRates(rates), Error);
+}
+
 TEST(Gpu, IgnoresATornPipelineCacheAndWritesAWholeOne)
 {
-    namespace fs = std::filesystem;
-    const fs::path folder = fs::temp_directory_path() / ("gnomon-host-test-" + std::to_string(::getpid()));
-    const char* old = std::getenv("XDG_CACHE_HOME");
-    const std::string before = old != nullptr ? old : "";
-    ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+    const CacheFolder folder;
     {
         const Gpu gpu({.gpu = "software"});
     }
     std::size_t files = 0;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder / "gnomon")) {
+    for (const fs::directory_entry& entry : folder.files()) {
         ++files;
         EXPECT_GT(entry.file_size(), 24U);
         fs::resize_file(entry.path(), entry.file_size() / 2);
@@ -58,20 +108,14 @@ TEST(Gpu, IgnoresATornPipelineCacheAndWritesAWholeOne)
         const Gpu gpu({.gpu = "software", .validate = true});
         EXPECT_TRUE(gpu.messages().empty());
     }
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder / "gnomon")) {
+    for (const fs::directory_entry& entry : folder.files()) {
         std::ofstream(entry.path(), std::ios::binary | std::ios::trunc)
             << "not a pipeline cache at all, but long enough";
     }
     EXPECT_NO_THROW(Gpu({.gpu = "software"}));
-    fs::remove_all(folder);
     // A folder that cannot be made is no reason to fail.
-    ::setenv("XDG_CACHE_HOME", "/dev/null", 1);
+    CacheFolder::use("/dev/null");
     EXPECT_NO_THROW(Gpu({.gpu = "software"}));
-    if (before.empty()) {
-        ::unsetenv("XDG_CACHE_HOME");
-    } else {
-        ::setenv("XDG_CACHE_HOME", before.c_str(), 1);
-    }
 }
 
 } // namespace

@@ -94,7 +94,8 @@ TEST(SettledMask, GivesEachLightOfALayerWhatItHasAmongItsLike)
     const std::vector<std::byte> mixed = draw(scene, lights, several);
     const std::size_t layer = std::size_t{4} * kScreen.width * kScreen.height;
     ASSERT_EQ(mixed.size(), 2 * layer);
-    for (std::uint32_t of = 0; of < 3; ++of) {
+    constexpr std::uint32_t kOfFullSize = 3; // a half mask is spread where all lights of its layer agree
+    for (std::uint32_t of = 0; of < kOfFullSize; ++of) {
         std::vector<Light> alike = lights;
         for (Light& light : alike) {
             light.options = 0;

@@ -112,6 +112,8 @@ struct FilterTraits {
     bool has_metric = false;    // MomentOptions::metric counts; other filters read linear depths alone
     bool has_maps = true;       // false: it counts faces of shadow volumes, and a light so planned has no views
 };
+/// Bytes of a texel, colour or depth as the filter reads it; 0 of what is no format.
+[[nodiscard]] GNOMON_API std::uint32_t texelBytes(MapFormat format);
 /// The row of a filter. Null for automatic, which stands for another filter (filterOf()).
 [[nodiscard]] GNOMON_API const FilterTraits* filterTraits(Filter filter);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <gnomon/choices.h>
+#include <gnomon/device_rates.h>
 #include <gnomon/export.h>
 #include <gnomon/geometry.h>
 #include <gnomon/moment_options.h>
@@ -134,6 +135,9 @@ struct Frame {
     /// gnomon/draw_rate.h). Only ShadowOptions::draw_budget_ms uses it. A value that is not a finite number above 0
     /// means that it is not known.
     double draw_ms_per_texel = 0.0;
+    /// The device's, by which map size auto weighs error against time. They are those of the table for a GPU where a
+    /// host does not know better.
+    DeviceRates rates = ratesOf(RateSource::gpu);
     /// The backend can clamp casters onto a near plane that they are before (Vulkan: depthClamp). False: near planes
     /// lie before all casters, which costs some precision of depth (ViewProjection::clamp_near is false).
     bool clamps_depth = true;

@@ -223,13 +223,19 @@ struct ShadowOptions {
     Quality quality = Quality::balanced; // the effort of `automatic`
     std::optional<MapFormat> format;     // a texel's format; nothing: the filter's first format
     /// Texels on a side of one map, 16 .. 16384. Cascades that partition auto chose share the texels of one such map:
-    /// four have half the side. Nothing: the planner chooses the largest side that max_texels allows; or a half, a
-    /// quarter or an eighth of that, where finer texels are predicted to gain nothing. Maps that a motion keeps are as
-    /// large as possible.
+    /// four have half the side. Nothing: the planner chooses the largest side for which the light has texels; or a
+    /// half, a quarter or an eighth of that, where finer texels are predicted to gain nothing, or less than their time
+    /// is worth (Frame::rates). Quality best and max_texels leave time out. Maps that a motion keeps are as large as
+    /// possible.
     std::optional<std::uint32_t> map_size;
     /// Texels of all maps of a light together where map_size is nothing, 1024 .. 268435456 (16384 x 16384). The maps of
-    /// each of a stepping sun's two positions may have this many.
-    std::uint32_t max_texels = 2048 * 2048;
+    /// each of a stepping sun's two positions may have this many. Nothing: as many as its memory has room for.
+    std::optional<std::uint32_t> max_texels;
+    /// The memory of all maps of a sun, and of a spot or point light, where neither map_size nor max_texels is given:
+    /// MiB, 0.0625 .. 1024. It is that of the texels alone, 4 bytes for each at least; images beside maps (blocks,
+    /// edges, kept maps) are not counted. A page has as many texels as the larger of both has room for.
+    double sun_memory_mib = 64.0;
+    double lamp_memory_mib = 16.0; // as sun_memory_mib
     /// Receivers farther from the eye than this get no shadow, metres; 0: no limit.
     double max_distance_m = 0.0;
     double fade = 0.1; // share of max_distance_m over which shadows fade away: 0 .. 1
@@ -331,6 +337,8 @@ public:
     [[nodiscard]] double border_texels() const { return border_texels_; }
     /// Texels on a side of the largest map that a light can have, and of a page.
     [[nodiscard]] std::uint32_t largest_side() const { return largest_side_; }
+    /// The same of a light of one type: the page's side, halved until the light has texels for it.
+    [[nodiscard]] std::uint32_t largestSide(LightType type) const;
     /// The border of a map with `side` texels on a side: at most a quarter of them.
     [[nodiscard]] double borderOf(std::uint32_t side) const { return std::min(border_texels_, 0.25 * side); }
     /// Only one pixel of each 2 x 2 reads maps where possible: MaskSize::half.
@@ -410,8 +418,11 @@ struct Resolution {
 /// The format that these options store in a texel: ShadowOptions::format or else the filter's first. d32f for an
 /// invalid filter.
 [[nodiscard]] GNOMON_API MapFormat formatOf(const ShadowOptions& options);
+/// Texels of all maps of a light of this type together, where map_size is nothing: max_texels, or those that the type's
+/// memory has room for.
+[[nodiscard]] GNOMON_API std::uint64_t texelsOf(const ShadowOptions& options, LightType type);
 /// Texels on a side of the largest map that a light with these options can have: map_size, or the largest multiple of 8
-/// that max_texels and budget_texels have room for.
+/// that texelsOf() and budget_texels have room for.
 [[nodiscard]] GNOMON_API std::uint32_t largestSide(const ShadowOptions& options);
 /// How far from a receiver's place in the map a filter reads: the centres of the texels that it reads are at most so
 /// many texels away, along x and y each. The border has room for this. For a filterable map it covers reads at the

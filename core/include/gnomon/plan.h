@@ -98,9 +98,12 @@ struct AutoChoice {
     double texels_per_pixel = 0.0;           // predicted before drawing: geometric mean over what is probably seen
     double error = 0.0;                      // predicted share of wrong pixels, 0 .. 1; useful only for comparison
     double other_error = 0.0;                // the same for the partition that was not taken; 0: there was no other
-    /// How many times the side of its maps was halved, because finer texels are predicted to gain nothing.
+    /// How many times the side of its maps was halved, because finer texels are predicted to gain nothing, or less than
+    /// their time is worth.
     std::uint32_t halvings = 0;
-    std::string_view reason; // a sentence with static lifetime
+    double time_ms = 0.0; // predicted, of a frame with this light, by Frame::rates; useful only for comparison
+    RateSource rates = RateSource::gpu; // the origin of these rates
+    std::string_view reason;            // a sentence with static lifetime
 };
 
 /// soften=converge: the point of the light that shines in this frame (convergeSample()). The light's maps are drawn

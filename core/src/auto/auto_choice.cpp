@@ -47,6 +47,15 @@ std::size_t choose(std::size_t before, bool has_before, double single, double ca
 
 } // namespace
 
+BySize AutoChooser::Candidate::shares() const
+{
+    BySize shares{};
+    for (std::size_t size = 0; size < shares.size() && error.count > 0; ++size) {
+        shares[size] = std::exp(edges[size] / static_cast<double>(error.count));
+    }
+    return shares;
+}
+
 void AutoChooser::follow(std::span<const Light> lights)
 {
     keys_.clear();
@@ -104,12 +113,14 @@ const AutoDecision& AutoChooser::decide(const FrustumInput& input, const Sight& 
     const std::size_t before = placed || memory.decision.partition == memory.candidates[0].partition ? 0 : 1;
     const std::size_t compared = memory.count == 2 && !placed ? 2 : 1;
     // The other candidate is predicted now and then, and at once where the view changed.
-    const double error_before = memory.candidates[before].error.mean();
+    const double error_before = memory.candidates[before].error.mean(); // with maps of the same size as now
     const std::uint32_t halvings = memory.decision.told.halvings;
     predict(input, sight, halvings, frustums, memory.candidates[before]);
     const double error_now = memory.candidates[before].error.mean();
     const bool is_new = !had_choice || std::max(error_now, error_before) > kNewView * std::min(error_now, error_before);
-    if (compared == 2 && (is_new || ++memory.frames >= kFramesBetween)) {
+    const bool is_sized = halvings != memory.compared_at;
+    memory.compared_at = halvings;
+    if (compared == 2 && (is_new || is_sized || ++memory.frames >= kFramesBetween)) {
         memory.frames = 0;
         predict(input, sight, halvings, frustums, memory.candidates[1 - before]);
     }
@@ -125,19 +136,45 @@ const AutoDecision& AutoChooser::decide(const FrustumInput& input, const Sight& 
         best = choose(before, had_choice, memory.candidates[0].error.mean(), cascades, told.reason);
         told.other_error = memory.candidates[1 - best].error.mean();
     }
-    const Candidate& taken = memory.candidates[best];
+    Candidate& taken = memory.candidates[best];
+    size(input, taken, is_new, told);
+    if (told.halvings != halvings) { // what is told, and the warps, are those of the maps that are drawn
+        predict(input, sight, told.halvings, frustums, taken);
+    }
     memory.decision.partition = taken.partition;
     memory.decision.strengths = taken.strengths;
-    if (input.light.map_size != 0) {
-        told.halvings = 0; // its side is given
-    } else if (input.recipe.sizesMap() && taken.coarsest_px > 0.0) {
-        told.halvings = halvingsFor(taken.coarsest_px, is_new ? std::nullopt : std::optional(halvings));
-    }
     told.partition = taken.partition->partition;
     told.error = taken.error.mean();
     told.texels_per_pixel =
         taken.error.count > 0 ? std::exp(taken.error.log_texels / static_cast<double>(taken.error.count)) : 0.0;
     return memory.decision;
+}
+
+/// Texels that were asked for are spent as far as they are of use, and by quality best as many as memory has. Else by
+/// their time.
+void AutoChooser::size(const FrustumInput& input, const Candidate& taken, bool is_new, AutoChoice& told)
+{
+    const Recipe& recipe = input.recipe;
+    const DeviceRates& rates = input.frame.rates;
+    const std::optional<std::uint32_t> before = is_new ? std::nullopt : std::optional(told.halvings);
+    BySize times_ms{};
+    for (std::uint32_t halvings = 0; halvings < times_ms.size(); ++halvings) {
+        const MapWish wish = recipe.wishOf(input.light, 0, *taken.partition, halvings);
+        const double texels = static_cast<double>(wish.side) * wish.side * wish.count;
+        times_ms[halvings] = frameTime_ms(rates, recipe.resolved.traits(),
+                                          {static_cast<double>(input.frame.size_px.x) * input.frame.size_px.y,
+                                           static_cast<double>(input.receivers.size()) * wish.count, texels});
+    }
+    if (input.light.map_size != 0) {
+        told.halvings = 0; // its side is given
+    } else if (recipe.sizesMap() && taken.coarsest_px > 0.0) {
+        told.halvings = halvingsFor(taken.coarsest_px, before);
+        if (!recipe.options().max_texels && recipe.options().quality != Quality::best) {
+            told.halvings = std::max(told.halvings, halvingsByTime(taken.shares(), times_ms, before));
+        }
+    }
+    told.rates = rates.source;
+    told.time_ms = times_ms[told.halvings];
 }
 
 void AutoChooser::predict(const FrustumInput& input, const Sight& sight, std::uint32_t halvings,
@@ -146,13 +183,18 @@ void AutoChooser::predict(const FrustumInput& input, const Sight& sight, std::ui
     slices_.clear();
     candidate.partition->divide({input.light, input.camera, input.recipe.options().cascades}, slices_);
     candidate.error = {};
+    candidate.edges = {};
     candidate.coarsest_px = 0.0;
     const std::uint32_t side = input.recipe.wishOf(input.light, 0, *candidate.partition, halvings).side;
     for (std::size_t i = 0; i < slices_.size(); ++i) {
-        const Prediction found = frustums.predict(
-            {input.frame, input.recipe, input.camera, input.receivers, input.levellers, input.light, slices_[i], side},
-            sight, candidate.strengths[i]);
+        FrustumInput asked{input.frame,     input.recipe, input.camera, input.receivers,
+                           input.levellers, input.light,  slices_[i],   side};
+        asked.halvings = halvings;
+        const Prediction found = frustums.predict(asked, sight, candidate.strengths[i]);
         candidate.error.add(found.error);
+        for (std::size_t size = 0; size < found.edges.size(); ++size) {
+            candidate.edges[size] += found.edges[size];
+        }
         candidate.coarsest_px =
             std::max(candidate.coarsest_px, std::ldexp(found.coarsest_px, -static_cast<int>(halvings)));
     }

@@ -3,6 +3,7 @@
 // the best one is taken, but not at once where it is hardly better than the light's present choice.
 #pragma once
 
+#include "auto/map_size.h"
 #include "frustum_planner.h"
 #include "store/light_rows.h"
 
@@ -39,17 +40,23 @@ private:
         const PartitionTraits* partition = nullptr;
         std::array<double, kMaxCascades> strengths{};
         MapError error;
+        BySize edges{};
         double coarsest_px = 0.0; // coarsest texel of its maps at their largest side
+
+        /// Shares of wrong pixels by the side of its maps: geometric means.
+        [[nodiscard]] BySize shares() const;
     };
     struct Memory {
         std::array<Candidate, 2> candidates;
-        std::size_t count = 0;    // number of candidates; 0: nothing is remembered
-        std::uint32_t frames = 0; // frames since all candidates were predicted
+        std::size_t count = 0;         // number of candidates; 0: nothing is remembered
+        std::uint32_t frames = 0;      // frames since all candidates were predicted
+        std::uint32_t compared_at = 0; // the halvings for which they were
         AutoDecision decision;
     };
     static void begin(const Recipe& recipe, LightType type, Memory& memory);
     void predict(const FrustumInput& input, const Sight& sight, std::uint32_t halvings, FrustumPlanner& frustums,
                  Candidate& candidate);
+    static void size(const FrustumInput& input, const Candidate& taken, bool is_new, AutoChoice& told);
 
     LightRows rows_;
     std::vector<Memory> memories_; // by row

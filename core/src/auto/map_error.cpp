@@ -10,11 +10,6 @@
 namespace gnomon {
 namespace {
 
-/// The texel below which partitions and warps gain next to nothing in the ranking, pixels.
-constexpr double kFinestTexel_px = 0.5;
-/// Coarser than this is too coarse.
-constexpr double kTooCoarse_px = 1.0 / 6.0;
-
 /// The mean of the squared sides of a texel, in pixels, as a length; infinite where the light grazes the receiver.
 double texelInPixels(const LitPoint& point, const Warp& warp, const MapFrame& frame)
 {
@@ -87,17 +82,33 @@ glm::dmat2 texelFromPixel(const LitPoint& point, const Warp& warp, const MapFram
     return {texels(point.q_from_pixel[0]), texels(point.q_from_pixel[1])};
 }
 
-MapError mapErrorOf(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame, double feature_m)
+MapError mapErrorOf(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame, double feature_m,
+                    double finest_px)
 {
     MapError error;
     for (const LitPoint& point : points) {
         const double texel_px = texelInPixels(point, warp, frame);
-        const double texel_m = std::max(texel_px, kFinestTexel_px) * point.pixel_m;
+        const double texel_m = std::max(texel_px, finest_px) * point.pixel_m;
         error.sum += std::isfinite(texel_m) ? texel_m / (texel_m + feature_m) : 1.0;
         error.log_texels -= std::isfinite(texel_px) && texel_px > 0.0 ? std::log(texel_px) : 0.0;
     }
     error.count = points.size();
     return error;
+}
+
+BySize edgesBySize(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame, double feature_m,
+                   std::uint32_t halvings)
+{
+    BySize logs{};
+    for (const LitPoint& point : points) {
+        const double texel_px = texelInPixels(point, warp, frame);
+        for (std::uint32_t i = 0; i < logs.size(); ++i) {
+            const double sized_px = std::ldexp(texel_px, static_cast<int>(i) - static_cast<int>(halvings));
+            const double texel_m = std::max(sized_px, kFineEnough_px) * point.pixel_m;
+            logs[i] += std::isfinite(texel_m) ? std::log(texel_m / (texel_m + feature_m)) : 0.0;
+        }
+    }
+    return logs;
 }
 
 double coarsestTexel_px(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
@@ -122,18 +133,6 @@ FacingTexels facingTexels(std::span<const LitPoint> points, const Warp& warp, co
     }
     found.coarsest_px = coarsestOf(scratch);
     return found;
-}
-
-std::uint32_t halvingsFor(double coarsest_px, std::optional<std::uint32_t> before)
-{
-    constexpr std::uint32_t kMost = 3;
-    std::uint32_t halvings = 0;
-    while (halvings < kMost && std::ldexp(coarsest_px, static_cast<int>(halvings) + 1) <= kFineEnough_px) {
-        ++halvings;
-    }
-    const bool keeps =
-        before && *before > halvings && std::ldexp(coarsest_px, static_cast<int>(*before)) <= kTooCoarse_px;
-    return keeps ? *before : halvings;
 }
 
 } // namespace gnomon

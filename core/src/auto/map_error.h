@@ -2,12 +2,12 @@
 // How wrong the shadows of a map will be, told by its matrix and by where the camera looks.
 #pragma once
 
+#include "auto/map_size.h"
 #include "auto/sight.h"
 #include "fit/projection.h"
 
 #include <glm/mat2x2.hpp>
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -48,11 +48,21 @@ struct MapError {
 };
 
 /// The edge of a shadow is off by about a texel, so of a shadow of size f a texel of length t gets a share of about
-/// t / (t + f) wrong. A texel smaller than half a pixel is no better than one of that size. `feature_m`: f. Lengths are
-/// those on the receiver: so much of the picture is wrong where things are far off and their shadows small, and
+/// t / (t + f) wrong. A texel smaller than `finest_px` is no better than one of that size. `feature_m`: f. Lengths
+/// are those on the receiver: so much of the picture is wrong where things are far off and their shadows small, and
 /// counting texels in pixels alone gives the near end too much of the map (docs/techniques/auto.md has figures).
 [[nodiscard]] MapError mapErrorOf(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
-                                  double feature_m);
+                                  double feature_m, double finest_px);
+
+/// Edges gain by still finer texels, if little: finer than this is more than is of use.
+inline constexpr double kFineEnough_px = 0.125;
+/// Where texels are shared among frustums (partition multi): one that has these gives way to those that do not.
+inline constexpr double kEnoughForOne_px = 0.5;
+/// Natural logarithms of the shares of wrong pixels that mapErrorOf() sums up, themselves summed over the points, by
+/// how often the map's largest side is halved: `frame` is that of a map halved `halvings` times. In their geometric
+/// mean the few points that the light grazes, which are all wrong with any map, do not count for more than others.
+[[nodiscard]] BySize edgesBySize(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
+                                 double feature_m, std::uint32_t halvings);
 
 /// The size of a texel that all but a fiftieth of the points have at most, in pixels; 0: there are no points. Reorders
 /// `scratch`, which it fills.
@@ -67,11 +77,5 @@ struct FacingTexels {
 /// Fills `scratch`.
 [[nodiscard]] FacingTexels facingTexels(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
                                         std::vector<double>& scratch);
-/// Edges gain by still finer texels, if little: finer than this is more than is of use.
-inline constexpr double kFineEnough_px = 0.125;
-/// How many times to halve the side of a map whose coarsest texel is this many pixels (> 0): 0 .. 3, to an eighth of a
-/// pixel. `before`: of the frame before, which is kept up to a sixth, for each change draws the map anew; nothing:
-/// there was none.
-[[nodiscard]] std::uint32_t halvingsFor(double coarsest_px, std::optional<std::uint32_t> before);
 
 } // namespace gnomon

@@ -20,8 +20,10 @@ constexpr double kWarpGain = 0.97;
 /// Beside the best one's error: a strength that errs less stays, and one that errs more is left at once.
 constexpr double kAsGood = 1.02;
 constexpr double kFarWorse = 1.5;
-/// From frame to frame: of the logarithm of a strength, and of the way that is left.
+/// From frame to frame: the least and the largest step of the logarithm of a strength, and its share of the way that is
+/// left.
 constexpr double kStep = 0.01;
+constexpr double kMostStep = 0.0295; // 3 %
 constexpr double kShareOfWay = 0.05;
 
 struct Tried {
@@ -79,7 +81,7 @@ MapError WarpTrial::errorAt(double strength) const
     const LightRect rect = !places.empty() ? rectOf(warp, places)
                            : warp.warped() ? rectOf(warp, fit.outline)
                                            : unwarped;
-    return mapErrorOf(points, warp, frameOf(rect, least_size, map_size, border_texels), feature_m);
+    return mapErrorOf(points, warp, frameOf(rect, least_size, map_size, border_texels), feature_m, finest_px);
 }
 
 Warp warpOfStrength(const FitInput& input, const ViewSlope& slope, double strength)
@@ -116,7 +118,7 @@ double nextStrength(const WarpTrial& trial, double before)
         return std::exp(best.log_strength);
     }
     const double way = best.log_strength - now.log_strength;
-    const double most = std::max(kStep, kShareOfWay * std::abs(way));
+    const double most = std::clamp(kShareOfWay * std::abs(way), kStep, kMostStep);
     return std::exp(now.log_strength + std::clamp(way, -most, most));
 }
 

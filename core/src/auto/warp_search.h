@@ -23,6 +23,7 @@ struct WarpTrial {
     /// map. Else empty: the map covers the whole outline.
     std::span<const glm::dvec2> places;
     double feature_m = 0.0;
+    double finest_px = kFineEnough_px; // as mapErrorOf() has it
 
     /// A strength is the greatest w of the outline; 1: no warp.
     [[nodiscard]] MapError errorAt(double strength) const;
@@ -33,8 +34,8 @@ struct WarpTrial {
 [[nodiscard]] Warp warpOfStrength(const FitInput& input, const ViewSlope& slope, double strength);
 
 /// The strength to draw by. `before`: that of the frame before, 0: there was none. A strength stays while the best one
-/// errs hardly less, goes towards the best one by a hundredth or a twentieth of the way, whichever is more, and is left
-/// at once where it errs much more, as after a cut. Depends on its arguments alone.
+/// errs hardly less, goes towards the best one by a twentieth of the way, which is 1 to 3 % of the strength, and is
+/// left at once where it errs much more, as after a cut. Depends on its arguments alone.
 [[nodiscard]] double nextStrength(const WarpTrial& trial, double before);
 
 } // namespace gnomon

@@ -70,15 +70,30 @@ MapFormat formatOf(const ShadowOptions& options)
     return options.format ? *options.format : traits != nullptr ? traits->formats.front() : MapFormat::d32f;
 }
 
+std::uint64_t texelsOf(const ShadowOptions& options, LightType type)
+{
+    constexpr double kBytesOfMiB = 1024.0 * 1024.0;
+    constexpr double kMostTexels = 16384.0 * 16384.0;
+    constexpr std::uint32_t kLeastBytes = 4; // a smaller texel is drawn beside its depth
+    if (options.max_texels) {
+        return *options.max_texels;
+    }
+    const double memory_mib = type == LightType::directional ? options.sun_memory_mib : options.lamp_memory_mib;
+    const std::uint32_t bytes =
+        std::max(texelBytes(formatOf(options)), kLeastBytes) * imageLayersPerMap(filterOf(options), options.moments);
+    // Whatever the number, which resolve() may yet refuse.
+    const double texels = memory_mib * kBytesOfMiB / std::max(bytes, kLeastBytes);
+    return texels > 0.0 ? static_cast<std::uint64_t>(std::min(texels, kMostTexels)) : 0;
+}
+
 std::uint32_t largestSide(const ShadowOptions& options)
 {
     constexpr std::uint32_t kMultiple = 8; // halved three times it is a whole number still
     if (options.map_size) {
         return *options.map_size;
     }
-    const std::uint64_t texels = options.budget_texels == 0
-                                     ? options.max_texels
-                                     : std::min<std::uint64_t>(options.max_texels, options.budget_texels);
+    const std::uint64_t most = std::max(texelsOf(options, LightType::directional), texelsOf(options, LightType::point));
+    const std::uint64_t texels = options.budget_texels == 0 ? most : std::min(most, options.budget_texels);
     const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(texels)));
     return std::max(side - side % kMultiple, kMultiple);
 }
@@ -138,6 +153,15 @@ IdTest ResolvedOptions::idTest() const
     const IdTest given = asked_.ids.test;
     const IdTest own = filter() == Filter::depth_id ? IdTest::priority : IdTest::any;
     return given == IdTest::automatic ? own : given;
+}
+
+std::uint32_t ResolvedOptions::largestSide(LightType type) const
+{
+    std::uint64_t side = largest_side_;
+    while (!asked_.map_size && side * side > texelsOf(asked_, type)) {
+        side /= 2;
+    }
+    return static_cast<std::uint32_t>(side);
 }
 
 bool ResolvedOptions::fitsOnGpu() const

@@ -24,6 +24,10 @@ bool sizesItself(const ShadowOptions& o)
 {
     return !o.map_size && hasMaps(o);
 }
+bool goesByMemory(const ShadowOptions& o)
+{
+    return sizesItself(o) && !o.max_texels;
+}
 bool isVolumes(const ShadowOptions& o)
 {
     return filterOf(o) == Filter::volumes;
@@ -92,7 +96,9 @@ void addTechniqueRows(std::vector<OptionRow>& table)
         {.key = "motion", .type = choice, .form = "NAME", .choices = namesOf<Motion>, .doc = "how the map follows a moving camera or sun", .own_option = true, GNOMON_MEMBER(technique.motion)},
         {.key = "quality", .type = choice, .form = "NAME", .choices = namesOf<Quality>, .doc = "what auto may spend: pcf and one map, or rays and cascades too, or one map fitted to the camera's depth", .own_option = true, .used = choosesByQuality, .used_when = "partition or filter auto, but filter volumes", GNOMON_MEMBER(quality)},
         {.key = "map-size", .type = integer, .form = "N", .unit = "texels", .min = 16, .max = 16384, .none_text = "auto", .doc = "side of one map; auto: as large as texels lets it be, or less where no more is of use", .own_option = true, .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(map_size)},
-        {.key = "texels", .type = integer, .form = "N", .unit = "texels", .min = 1024, .max = 268435456, .doc = "that a light's maps may have together", .own_option = true, .used = sizesItself, .used_when = "map-size auto, but filter volumes", GNOMON_MEMBER(max_texels)},
+        {.key = "texels", .type = integer, .form = "N", .unit = "texels", .min = 1024, .max = 268435456, .none_text = "auto", .doc = "that a light's maps may have together; auto: as memory has room for, as far as they are worth their time", .own_option = true, .used = sizesItself, .used_when = "map-size auto, but filter volumes", GNOMON_MEMBER(max_texels)},
+        {.key = "sun-memory", .type = real, .form = "M", .unit = "MiB", .min = 0.0625, .max = 1024, .doc = "that all maps of a sun may take", .used = goesByMemory, .used_when = "map-size and texels auto, but filter volumes", GNOMON_MEMBER(sun_memory_mib)},
+        {.key = "lamp-memory", .type = real, .form = "M", .unit = "MiB", .min = 0.0625, .max = 1024, .doc = "that all maps of a spot or point light may take", .used = goesByMemory, .used_when = "map-size and texels auto, but filter volumes", GNOMON_MEMBER(lamp_memory_mib)},
         {.key = "map-format", .type = choice, .form = "FORMAT", .choices = namesOf<MapFormat>, .doc = "what a texel is stored as; else the filter's own", .own_option = true, .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(format)},
         {.key = "bias.constant", .type = real, .form = "M", .unit = "m", .min = -1e6, .max = 1e6, .doc = "towards the light; ends bias=auto", .used = hasBias, .used_when = "every filter but volumes and id, and no id.bias", GNOMON_BIAS(constant_m)},
         {.key = "bias.slope", .type = real, .form = "S", .unit = "texel depths", .min = 0, .max = 16, .doc = "times the depth that one texel spans; ends bias=auto", .used = hasBias, .used_when = "every filter but volumes and id, and no id.bias", GNOMON_BIAS(slope)},

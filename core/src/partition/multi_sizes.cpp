@@ -17,7 +17,7 @@ constexpr double kHoldsSide = 2.0;
 
 std::uint32_t MultiPartition::largestSide(const Input& input)
 {
-    const std::uint32_t largest = input.recipe.resolved.largest_side();
+    const std::uint32_t largest = input.recipe.resolved.largestSide(input.light.type);
     return input.light.map_size != 0 ? std::clamp(input.light.map_size, kSmallestMap, largest) : largest;
 }
 
@@ -52,8 +52,8 @@ void MultiPartition::sizeFrustums(const Input& input, Memory& memory, std::span<
             claim.staying = memory.held.fading() ? std::numeric_limits<double>::infinity() : kHoldsSide;
         }
     }
-    shares_.share(claims_,
-                  options.map_size ? std::numeric_limits<double>::infinity() : static_cast<double>(options.max_texels));
+    shares_.share(claims_, options.map_size ? std::numeric_limits<double>::infinity()
+                                            : static_cast<double>(texelsOf(options, input.light.type)));
     for (std::size_t i = 0; i < found.size(); ++i) {
         found[i].side = claims_[i].side;
     }

@@ -98,7 +98,7 @@ void VirtualPartition::divide(const Input& input, std::size_t light)
         return;
     }
     const ResolvedOptions& options = input.recipe.resolved;
-    const std::uint32_t largest = options.largest_side();
+    const std::uint32_t largest = options.largestSide(input.light.type);
     const std::uint32_t side = std::min(kPageSide, largest);
     found.border = std::max(kPageBorder, options.borderOf(side) / side);
     const PageKey root = rootAround(region_.rect(), 32.0 * input.camera.pad_m);
@@ -118,7 +118,7 @@ void VirtualPartition::divide(const Input& input, std::size_t light)
     const std::uint64_t together = input.light.map_size != 0 ? std::min(input.light.map_size, largest) : largest;
     const std::uint64_t texels = options.asked().map_size || input.light.map_size != 0
                                      ? together * together
-                                     : std::uint64_t{options.asked().max_texels};
+                                     : texelsOf(options.asked(), input.light.type);
     const double spread = options.integratesLight() ? std::tan(0.5 * input.light.angular_diameter_rad) : 0.0;
     tree_.divide({root, points_, boxes_, side - 2.0 * border, border,
                   tileMarginTexels(static_cast<double>(options.reach_texels())), spread,

@@ -89,33 +89,6 @@ std::uint64_t texelsRendered(const View& view, bool redraws_all)
     return (view.contents.redraw_kept || redraws_all ? all : 0) + (redraws_all ? all : dirty);
 }
 
-std::uint32_t texelBytes(MapFormat format)
-{
-    switch (format) {
-    case MapFormat::r8:
-        return 1;
-    case MapFormat::r16f:
-    case MapFormat::d16:
-    case MapFormat::r16:
-    case MapFormat::rg8:
-        return 2;
-    case MapFormat::d32f:
-    case MapFormat::r32f:
-    case MapFormat::rg16:
-    case MapFormat::rg16f:
-    case MapFormat::rgba8:
-    case MapFormat::d24:
-        return 4;
-    case MapFormat::rg32f:
-    case MapFormat::rgba16:
-    case MapFormat::rgba16f:
-        return 8;
-    case MapFormat::rgba32f:
-        return 16;
-    }
-    return 0;
-}
-
 std::uint64_t leastBytes(const Sight& seen, std::span<const Light> lights, const Plan& plan,
                          const TrafficOptions& options)
 {

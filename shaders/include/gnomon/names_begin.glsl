@@ -86,7 +86,6 @@
 #define edgeBeside gnomon_edgeBeside
 #define edgeCell gnomon_edgeCell
 #define edgeDistance gnomon_edgeDistance
-#define edgeInside gnomon_edgeInside
 #define edgeLit gnomon_edgeLit
 #define edgeShare gnomon_edgeShare
 #define encodeEsm gnomon_encodeEsm
@@ -394,6 +393,7 @@
 #define texelBlocks gnomon_texelBlocks
 #define texelConfidence gnomon_texelConfidence
 #define texelExtent gnomon_texelExtent
+#define texelInside gnomon_texelInside
 #define texelWeight gnomon_texelWeight
 #define tintTexel gnomon_tintTexel
 #define towardLight gnomon_towardLight

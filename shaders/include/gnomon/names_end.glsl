@@ -86,7 +86,6 @@
 #undef edgeBeside
 #undef edgeCell
 #undef edgeDistance
-#undef edgeInside
 #undef edgeLit
 #undef edgeShare
 #undef encodeEsm
@@ -394,6 +393,7 @@
 #undef texelBlocks
 #undef texelConfidence
 #undef texelExtent
+#undef texelInside
 #undef texelWeight
 #undef tintTexel
 #undef towardLight

@@ -10,6 +10,12 @@ GN_BEGIN
 GN_CONST real kOneSurface = real(4.0);
 // How far from the receiver a texel of a crease is looked for, texels.
 GN_CONST real kCrease = real(1.6);
+// Beyond the view's tile its last texels go on; NaN is a texel, too.
+GN_FN real2 texelInside(FilterInput f, real2 cell)
+{
+    return min(real2(f.tile.z, f.tile.w) - real2(real(1.0)), max(real2(f.tile.x, f.tile.y), cell));
+}
+
 // How often the part of the map that can block is narrowed down: by a filter that will read what is left, and by one
 // that will leave the receiver to another draw. The first narrowing settles nearly all that the others do.
 GN_CONST int kNarrowings = 4;

@@ -31,16 +31,10 @@ GN_FN real2 edgeCell(EdgeRows rows, real along, real across)
     return rows.along_x ? real2(along, across) : real2(across, along);
 }
 
-// Beyond the view's tile its last texels go on.
-GN_FN real2 edgeInside(FilterInput f, real2 cell)
-{
-    return max(real2(f.tile.x, f.tile.y), min(cell, real2(f.tile.z, f.tile.w) - real2(real(1.0))));
-}
-
 // Does a texel's depth light the receiver?
 GN_FN bool edgeLit(MapPoint point, FilterInput f, real2 cell, bool looks_for_creases)
 {
-    real2 inside = edgeInside(f, cell);
+    real2 inside = texelInside(f, cell);
     real stored = mapTexel(inside, f.layer, f.part);
     real2 at = cell + real2(real(0.5)) - point.texel;
     bool lit = compareTexel(point, at, stored) > real(0.5);
@@ -147,7 +141,7 @@ GN_FN EdgeShare edgeBeside(MapPoint point, FilterInput f, RayCone cone, EdgeRows
         real2 to_lit = real2(-line.y, real(1.0)) * ((low_lit ? real(-1.0) : real(1.0)) / sqrt(real(1.0) + line.y * line.y));
         real2 normal = edgeCell(rows, to_lit.x, to_lit.y);
         // The light's disc, where the texel that casts is.
-        real2 dark = edgeInside(f, edgeCell(rows, cell.x, low_lit ? across : across - real(1.0)));
+        real2 dark = texelInside(f, edgeCell(rows, cell.x, low_lit ? across : across - real(1.0)));
         real caster = mapTexel(dark, f.layer, f.part);
         real s = rayLength(point.depth - caster, cone.rise, cone.start.z, cone.axis.z, kRayEnd);
         real2 centre = coneTexel(cone, s, real2(real(0.0)));

@@ -16,9 +16,7 @@ GN_CONST int kPcssTaps = 32;
 // Depth of the texel at a place within the tile, and whether it can block.
 GN_FN bool tapBlocks(MapPoint point, FilterInput f, real2 texel, GN_OUT(real) stored)
 {
-    real2 low = real2(f.tile.x, f.tile.y);
-    real2 high = real2(f.tile.z, f.tile.w) - real2(real(1.0));
-    real2 cell = min(high, max(low, floor(texel))); // NaN is a texel, too
+    real2 cell = texelInside(f, floor(texel));
     stored = mapTexel(cell, f.layer, f.part);
     return canBlock(point, f, cell, cell + real2(real(0.5)) - point.texel, stored);
 }

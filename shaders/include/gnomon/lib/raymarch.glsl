@@ -35,7 +35,7 @@ GN_CONST int kPixelSteps = 1024;
 GN_CONST int kRaySteps = 256;
 // The square around the receiver that rays start in, texels. In it an edge's place is found to less than a texel. In a
 // penumbra so wide that its edge is not seen it is one texel, which blurs less.
-GN_CONST real kStartsWithin = real(1.25);
+GN_CONST real kStartsWithin = real(1.5);
 // The square where frames are averaged whose maps lie a part of a texel apart: these frames find the edge's place.
 GN_CONST real kStartsAtRest = real(0.5);
 // Texels: where rays spread less than the first, with the square that they start in, a few may do if they agree. Where
