@@ -165,6 +165,11 @@ struct Settings {
 
     /// Does the run place lights instead of the scene's?
     [[nodiscard]] bool placesLights() const { return sun_ws || spot || !points.empty(); }
+    /// A frame is made by those before it.
+    [[nodiscard]] bool learnsFromFrames() const
+    {
+        return shadow.technique.soften == Soften::converge || shadow.technique.partition == Partition::virtual_pages;
+    }
 };
 
 enum class SettingType : std::uint8_t { flag, integer, real, choice, numbers, size, range, text };

@@ -18,12 +18,15 @@
 namespace gnomon::app {
 namespace {
 
-/// A mean over frames needs more than one.
+/// A mean over frames needs more than one, and pages follow the edges of earlier frames.
 void noteFrames(Shot& shot, const Settings& settings)
 {
-    const bool converges = settings.shadow.technique.soften == Soften::converge;
-    if (settings.subcommand == kRender && converges && settings.converge == 1 && !settings.frames && !settings.truth) {
-        shot.notices.push_back("soften converge averages frames, and this is one; --converge N draws N at rest");
+    const bool is_one = settings.converge == 1 && !settings.frames && !settings.truth;
+    if (settings.subcommand == kRender && settings.learnsFromFrames() && is_one) {
+        shot.notices.push_back(fmt::format("{}, and this is one frame; --converge N draws N at rest",
+                                           settings.shadow.technique.soften == Soften::converge
+                                               ? "soften converge averages frames"
+                                               : "partition virtual has pages by what the frames before showed"));
     }
 }
 

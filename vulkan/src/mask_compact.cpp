@@ -84,7 +84,7 @@ void MaskPassRecorder::describeTiles(const Plan& plan, glm::uvec2 size_px)
     pack::fillMaskTiles(tiles_, now_.tiles);
 }
 
-void MaskPassRecorder::fillTiles(Slot& slot)
+void MaskPassRecorder::makeRoomForTiles(Slot& slot)
 {
     const VkDeviceSize bytes = now_.tiles.size() * sizeof(glm::uvec2);
     if (slot.tiles.size() < bytes) {
@@ -92,7 +92,12 @@ void MaskPassRecorder::fillTiles(Slot& slot)
         // With room for a while: the lists change from frame to frame.
         slot.tiles = HostBuffer(device_, bytes + bytes / 2, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "mask tiles");
     }
-    std::memcpy(slot.tiles.data(), now_.tiles.data(), bytes);
+}
+
+void MaskPassRecorder::fillTiles(Slot& slot)
+{
+    makeRoomForTiles(slot);
+    std::memcpy(slot.tiles.data(), now_.tiles.data(), now_.tiles.size() * sizeof(glm::uvec2));
     slot.tiles_of = drawings_;
 }
 

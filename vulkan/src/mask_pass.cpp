@@ -121,10 +121,22 @@ void MaskPassRecorder::makeObjects(const Plan& plan)
     }
 }
 
+void MaskPassRecorder::makePageTables(const Plan& plan)
+{
+    if (isCompact()) {
+        return; // it has lists of lights in their place
+    }
+    pack::fillPageTable(plan, now_.tiles);
+    for (Slot& slot : slots_) {
+        makeRoomForTiles(slot);
+    }
+}
+
 void MaskPassRecorder::makeBuffers(const Plan& plan)
 {
     now_.draws.reserve(pack::mostMaskDraws(plan));
     makeObjects(plan);
+    makePageTables(plan);
     const auto options = static_cast<std::uint32_t>(plan.options->size());
     const std::uint32_t lights = lightRoomFor(plan);
     const auto views = static_cast<std::uint32_t>(std::max<std::size_t>(plan.views.size(), shared::kFewViews));

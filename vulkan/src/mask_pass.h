@@ -106,11 +106,13 @@ private:
     void describeTiles(const Plan& plan, glm::uvec2 size_px);
     void describeConstants(const Plan& plan, glm::uvec2 screen_px, const pack::DrawPrecision& precision,
                            const MapClasses& maps);
+    void makeRoomForTiles(Slot& slot);
     void fillTiles(Slot& slot);
 
     void makeLayouts();
     void makeSets(std::uint32_t options);
     void makeObjects(const Plan& plan);
+    void makePageTables(const Plan& plan);
     void makeBuffers(const Plan& plan);
     void makeMask(const Plan& plan, VkExtent2D screen);
     void makeAlternate();

@@ -59,6 +59,9 @@ void SeenCells::prepare(const Plan& plan, VkExtent2D screen)
     if (!pipeline_) {
         makePipeline();
     }
+    for (Slot& slot : slots_) {
+        slot.requests.reserve(static_cast<std::size_t>(lights));
+    }
     const glm::uvec2 cells = cellsOf(screen);
     const VkDeviceSize bytes = static_cast<VkDeviceSize>(lights) * cells.x * cells.y * sizeof(SeenCell);
     if (bytes <= bytes_) {
