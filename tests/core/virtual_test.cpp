@@ -28,7 +28,7 @@ struct Street {
     ObjectSet set;
     std::vector<Light> lights;
     std::vector<ObjectId> boxes;
-    ShadowOptions options{.technique = kVirtual};
+    ShadowOptions options{.technique = kVirtual, .max_texels = 2048 * 2048};
     std::vector<SeenCell> cells;
     std::vector<PageRequests> requests;
     Frame frame;
@@ -310,7 +310,7 @@ TEST(Virtual, AllocatesNextToNothingOnceWarm)
 
 TEST(Virtual, SaysWhatItDoesNotGoWith)
 {
-    ShadowOptions options{.technique = kVirtual};
+    ShadowOptions options{.technique = kVirtual, .max_texels = 2048 * 2048};
     EXPECT_EQ(refusal(LightType::directional, options), std::nullopt);
     EXPECT_NE(refusal(LightType::spot, options), std::nullopt);
     EXPECT_NE(refusal(LightType::point, options), std::nullopt);

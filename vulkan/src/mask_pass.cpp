@@ -5,6 +5,7 @@
 #include "samplers.h"
 
 #include <gnomon/pack/frame_passes.h>
+#include <gnomon/pack/page_table.h>
 #include <gnomon/plan_views.h>
 
 #include <gnomon/shared/gpu_structs.h>

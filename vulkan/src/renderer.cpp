@@ -5,6 +5,7 @@
 #include "timed.h"
 #include "usage.h"
 
+#include <gnomon/pack/page_table.h>
 #include <gnomon/pack/soften_draws.h>
 
 #include <gnomon/shared/gpu_structs.h>
@@ -92,6 +93,9 @@ void ShadowRenderer::warmUp(const ResolvedOptions& options, const WarmUp& what)
         }
         if (options.fitsOnGpu()) {
             parts.fitter.warmUp();
+        }
+        if (pack::hasPages(options) && impl_->options.compact.channels == 0) {
+            parts.seen.warmUp();
         }
         parts.mask.warmUp(options, what);
     });

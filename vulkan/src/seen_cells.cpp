@@ -37,8 +37,11 @@ bool hasPages(const Plan& plan, const LightPlan& light)
 
 } // namespace
 
-void SeenCells::makePipeline()
+void SeenCells::warmUp()
 {
+    if (pipeline_) {
+        return;
+    }
     constexpr VkShaderStageFlags kStage = VK_SHADER_STAGE_COMPUTE_BIT;
     nearest_ = makeSampler(device_, VK_FILTER_NEAREST);
     sets_ = DescriptorSets(device_, kTypes, kStage);
@@ -56,9 +59,7 @@ void SeenCells::prepare(const Plan& plan, VkExtent2D screen)
     if (lights == 0 || screen.width == 0 || screen.height == 0) {
         return;
     }
-    if (!pipeline_) {
-        makePipeline();
-    }
+    warmUp();
     for (Slot& slot : slots_) {
         slot.requests.reserve(static_cast<std::size_t>(lights));
     }

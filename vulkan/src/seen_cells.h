@@ -16,6 +16,8 @@ public:
     {
     }
 
+    /// Makes the pipeline.
+    void warmUp();
     /// Makes what such a plan needs; nothing for a plan without lights of partition virtual.
     void prepare(const Plan& plan, VkExtent2D screen);
     /// After the mask, which is readable. Afterwards the host may read once the GPU has finished.
@@ -30,7 +32,6 @@ private:
         VkDescriptorSet set = VK_NULL_HANDLE;
         std::vector<PageRequests> requests;
     };
-    void makePipeline();
 
     Device& device_;
     VkPipelineCache cache_;
