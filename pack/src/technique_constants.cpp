@@ -2,6 +2,7 @@
 #include <gnomon/pack/technique_constants.h>
 
 #include <gnomon/pack/filter_rule.h>
+#include <gnomon/pack/page_table.h>
 
 #include <gnomon/shared/gpu_structs.h>
 
@@ -42,7 +43,7 @@ std::uint32_t fewViews(const ResolvedOptions& options)
                         technique.partition == Partition::multi || technique.partition == Partition::automatic;
     const std::uint32_t cascades = std::min(static_cast<std::uint32_t>(options.cascades().count), shared::kFewViews);
     const bool divided = technique.partition != Partition::single && cascades > 1;
-    return steps ? 0 : around ? shared::kFewViews : divided ? cascades : options.segments();
+    return steps || hasPages(options) ? 0 : around ? shared::kFewViews : divided ? cascades : options.segments();
 }
 
 std::uint32_t fewViewsOf(const Plan& plan)

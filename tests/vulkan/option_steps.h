@@ -46,6 +46,7 @@ inline constexpr std::array kBases{
     "filter=pcf soften=blur soften.edges=plain motion=step-alternate map-size=64",
     "filter=hard soften=blur soften.kernel=poisson soften.size=half map-size=64",
     "filter=pcss mask-size=half map-size=64",
+    "filter=raymarch partition=virtual texels=65536",
     "filter=pcf soften=smoothies motion=snap keep-still=always map-size=64",
     "filter=smoothies motion=snap keep-still=always map-size=64",
     "filter=smoothies partition=sdsm cascades.pass=layered map-size=64",

@@ -139,6 +139,8 @@ INSTANTIATE_TEST_SUITE_P(
         WarmCase{"evsm_step_alternate", "filter=evsm motion=step-alternate map-size=64"},
         WarmCase{"pcf_colour", "filter=pcf translucent=colour map-size=64"},
         WarmCase{"pcf_colour_converge", "filter=pcf translucent=colour soften=converge map-size=64"},
+        WarmCase{"pcf_pages", "filter=pcf partition=virtual texels=65536"},
+        WarmCase{"raymarch_pages", "filter=raymarch partition=virtual texels=65536"},
         WarmCase{"pcf_half", "filter=pcf mask-size=half partition=cascades map-size=64"},
         WarmCase{"pcf_colour_half", "filter=pcf mask-size=half translucent=colour map-size=64"},
         WarmCase{"hard_blur", "filter=hard soften=blur map-size=64"},

@@ -3,6 +3,7 @@
 #include "mask_pass.h"
 
 #include <gnomon/pack/frame_passes.h>
+#include <gnomon/pack/page_table.h>
 
 #include <algorithm>
 #include <array>
@@ -187,6 +188,9 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
         key.told_apart = ToldApart::tests;
         key.constants.technique.few_views = few;
         make();
+        if (pack::hasPages(options)) {
+            return; // a table tells its views apart
+        }
         if (few > 1 && !side_by_side) {
             key.told_apart = ToldApart::slices;
             make();

@@ -34,7 +34,8 @@ struct TechniqueConstants {
 [[nodiscard]] GNOMON_API TechniqueConstants techniqueConstants(const ResolvedOptions& options);
 
 /// The number of views that a pass has to look among where a light with these options is alone in a plan: at most
-/// kFewViews, some of which may be unused (fillViews()). 0 for the step motions, whose suns have two positions.
+/// kFewViews, some of which may be unused (fillViews()). 0 for the step motions, whose suns have two positions,
+/// and for partition virtual, whose views are found by a table.
 [[nodiscard]] GNOMON_API std::uint32_t fewViews(const ResolvedOptions& options);
 /// The number of views of a plan, for such a pass: 0 where the plan has several lights, no views, more than kFewViews,
 /// or views of two positions of a sun.
