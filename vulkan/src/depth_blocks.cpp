@@ -37,7 +37,7 @@ DepthBlocks::Kind DepthBlocks::makeKind(VkDescriptorType source, std::span<const
 }
 
 DepthBlocks::DepthBlocks(Device& device, VkPipelineCache cache)
-    : device_(device), from_maps_(makeKind(VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, spirv::depth_blocks_map_comp, cache)),
+    : device_(device), nearest_(makeSampler(device, VK_FILTER_NEAREST)), from_maps_(makeKind(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, spirv::depth_blocks_map_comp, cache)),
       from_blocks_(makeKind(VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, spirv::depth_blocks_comp, cache))
 {
 }
@@ -64,7 +64,7 @@ void DepthBlocks::setMaps(const Image& maps)
     from_maps_.sets.reset(1);
     from_blocks_.sets.reset(divideUp(info.levels, kLevelsOfPass));
     addPass(from_maps_, 0,
-            DescriptorSets::image(0, VK_NULL_HANDLE, maps.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL));
+            DescriptorSets::image(0, nearest_.get(), maps.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL));
     for (std::uint32_t first = kLevelsOfPass; first < info.levels; first += kLevelsOfPass) {
         addPass(from_blocks_, first,
                 DescriptorSets::image(0, VK_NULL_HANDLE, image_.level(first - 1), VK_IMAGE_LAYOUT_GENERAL));

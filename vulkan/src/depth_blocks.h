@@ -6,6 +6,7 @@
 #include "barriers.h"
 #include "descriptors.h"
 #include "map_step.h"
+#include "samplers.h"
 
 namespace gnomon::vulkan {
 
@@ -53,6 +54,7 @@ private:
     std::uint32_t layers_ = 0;
     bool is_new_ = false; // no block is made yet
     bool has_layout_ = false;
+    Sampler nearest_;
     Kind from_maps_;
     Kind from_blocks_;
     std::vector<Pass> passes_;
