@@ -3,8 +3,7 @@
 // still in the world. Pages are narrow where the picture has edges of shadows, and are kept from frame to frame.
 #pragma once
 
-#include "depth_range.h"
-#include "partition/page_tree.h"
+#include "partition/page_space.h"
 #include "recipe.h"
 #include "region.h"
 #include "store/light_rows.h"
@@ -20,6 +19,12 @@ namespace gnomon {
 inline constexpr double kPageBorder = 14.0 / 128.0;
 /// Texels on a side of a page, where a light may have so many.
 inline constexpr std::uint32_t kPageSide = 128;
+/// The texels that a light's pages may have together, and on a side of each.
+struct PageTexels {
+    std::uint64_t all = 0;
+    std::uint32_t side = 0;
+};
+[[nodiscard]] PageTexels pageTexelsOf(const ResolvedOptions& options, const Light& light);
 
 /// One page of a light in one frame.
 struct VirtualPage {
@@ -67,33 +72,42 @@ private:
         std::vector<Known> next;
         std::vector<PageKey> taken; // PageTree::taken()
         std::uint32_t next_id = 1;
-        glm::dvec3 direction_ws{0.0}; // pages of another direction show something else
+        // Pages of another place, direction or angle show something else.
+        glm::dvec3 place_ws{0.0};
+        glm::dvec3 direction_ws{0.0};
+        double unit = 0.0;
     };
     /// A light in this frame.
     struct Found {
         Outcome outcome;
-        LightSpace space;
-        DepthRange range;
-        double border = kPageBorder; // share of a page's side
+        double border = kPageBorder;   // share of a page's side
+        std::uint32_t first_space = 0; // of its roots, in spaces_
         std::uint32_t first_page = 0;
         std::uint32_t page_count = 0;
     };
     [[nodiscard]] static PageKey rootAround(const LightRect& rect, double least_m);
-    void listCasters(const Input& input, const LightSpace& space, const PageKey& root, double border_share);
-    void listPoints(const Input& input, const LightSpace& space);
-    void addRequested(const PageRequests& requests, const LightSpace& space);
+    void listRoots(const Input& input, Found& found);
+    [[nodiscard]] Outcome addRoot(const Input& input, const Slice& slice, double border, PageRoot& root);
+    void listCasters(const Input& input, const PageSpace& space, double border, PageRoot& root);
+    void listPoints(const Input& input, const Found& found);
+    void addRequested(const Input& input, const PageRequests& requests, const Found& found);
+    void addPoint(const Light& light, const Found& found, const glm::dvec3& p_ws, double pixel_m, double weight);
+    void forgetOther(const Found& found, Memory& memory) const;
     void namePages(Memory& memory, Found& found);
 
     LightRows rows_;
     std::vector<Memory> memories_; // by row
     std::vector<Found> found_;     // by light
+    std::vector<PageSpace> spaces_;
     std::vector<VirtualPage> pages_;
     std::vector<std::uint32_t> casters_;
     // Scratch.
     std::vector<std::uint64_t> keys_;
     Region region_;
     PageTree tree_;
+    std::vector<PageRoot> roots_;
     std::vector<PagePoint> points_;
+    std::vector<Plane> planes_;
     std::vector<std::uint32_t> objects_;
     std::vector<PageCaster> boxes_;
 };
