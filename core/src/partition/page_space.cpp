@@ -15,6 +15,9 @@
 namespace gnomon {
 namespace {
 
+/// Room for rounding, as a share of a distance along a light with a place.
+constexpr double kRounding = 1e-4;
+
 /// The row that gives a coordinate along an axis.
 glm::dvec4 rowOf(const LightSpace& space, const glm::dvec3& axis)
 {
@@ -78,7 +81,7 @@ PageSpace pageSpaceOf(const Light& light, const Slice& slice, const Aabb& scene_
 {
     PageSpace made;
     made.space = lightSpaceOf(light, slice.axis_ws, slice.half_angle_rad, scene_ws);
-    made.unit = made.space.perspective ? made.space.tangent : 1.0;
+    made.unit = made.space.perspective && pageFaces(light) == 1 ? made.space.tangent : 1.0; // of a cube's face: 1
     return made;
 }
 
@@ -167,7 +170,7 @@ void planesAroundPage(const PageSpace& in, const glm::dvec2& low, const glm::dve
     if (space.perspective) {
         const glm::dvec4 depth = rowOf(space, space.depth_ws);
         out.push_back({glm::dvec3(depth), depth.w - space.near_m});
-        out.push_back({-glm::dvec3(depth), space.reach_m - depth.w});
+        out.push_back({-glm::dvec3(depth), (1.0 + kRounding) * space.reach_m - depth.w});
     }
 }
 
@@ -182,7 +185,6 @@ DepthRange pageDepths(const PageSpace& in, const Aabb& scene_ws, std::span<const
         const SteppedRange stepped = steppedRange(middle_m - reach_m, middle_m + reach_m);
         return {stepped.low, stepped.high};
     }
-    constexpr double kRounding = 1e-4;
     double nearest = 0.0;
     for (const PageCaster& caster : casters) {
         nearest = std::min(nearest, caster.nearest);
@@ -219,9 +221,9 @@ void projectPage(const PageSpace& in, const PageKey& page, std::uint32_t side, d
     projection.texel_xy_m = glm::dvec2(texel);
     projection.light_reach = 0.0;
     const double place_m = space.perspective ? 0.0 : range.near_m;
-    projection.light_place_ws = space.perspective ? space.origin_ws
-                                                  : space.right_ws * centre.x + space.up_ws * centre.y +
-                                                        space.forward_ws * range.near_m;
+    projection.light_place_ws =
+        space.perspective ? space.origin_ws
+                          : space.right_ws * centre.x + space.up_ws * centre.y + space.forward_ws * range.near_m;
     projection.metric.near_m = range.near_m - place_m;
     projection.metric.far_m = range.far_m - place_m;
     const glm::dvec4 from_near = rowOf(space, space.depth_ws) - glm::dvec4(0.0, 0.0, 0.0, range.near_m);

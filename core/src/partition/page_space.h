@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The square of partition virtual across a light, and what lies where in it. Under parallel rays it is a plane across
-// them, in metres, and depth is metres along them. Of a light with a place it is the plane before the light, in tangents
-// of its half angle, and depth is minus one over metres along its axis. Both times rays of light are points, the planes
-// of boxes are planes, and a ray to the light's rim leads away in proportion to depth.
+// them, in metres, and depth is metres along them. Of a light with a place it is the plane before the light, in
+// tangents of its half angle, and depth is minus one over metres along its axis. Both times rays of light are points,
+// the planes of boxes are planes, and a ray to the light's rim leads away in proportion to depth.
 #pragma once
 
 #include "camera_view.h"

@@ -66,9 +66,8 @@ void PageTree::addRoots(const Input& input)
     std::iota(casters_.begin(), casters_.end(), 0U);
     auto first = order_.begin();
     for (const PageRoot& root : input.roots) {
-        const auto end = std::partition(first, order_.end(), [&](std::uint32_t point) {
-            return input.points[point].face == root.key.face;
-        });
+        const auto end = std::partition(first, order_.end(),
+                                        [&](std::uint32_t point) { return input.points[point].face == root.key.face; });
         if (root.caster_count > 0) {
             Node node;
             node.key = root.key;
@@ -184,7 +183,7 @@ bool PageTree::holdsRays(const Input& input, const Node& node) const
         double enters = box.nearest;
         for (const glm::dvec3& face : box.faces) {
             enters = std::max(enters, face.z + face.x * (face.x > 0.0 ? low.x : high.x) +
-                                              face.y * (face.y > 0.0 ? low.y : high.y));
+                                          face.y * (face.y > 0.0 ? low.y : high.y));
         }
         near = std::min(near, enters);
     }

@@ -33,8 +33,8 @@ PageTexels pageTexelsOf(const ResolvedOptions& options, const Light& light)
     const std::uint32_t largest = options.largestSide(light.type);
     const std::uint64_t given = light.map_size != 0 ? std::clamp(light.map_size, kSmallestMap, largest) : largest;
     PageTexels texels;
-    texels.all = options.asked().map_size || light.map_size != 0 ? given * given * faces
-                                                                 : texelsOf(options.asked(), light.type);
+    texels.all =
+        options.asked().map_size || light.map_size != 0 ? given * given * faces : texelsOf(options.asked(), light.type);
     texels.side = std::min(kPageSide, largest);
     while (texels.side > kSmallestMap && std::uint64_t{texels.side} * texels.side * faces > texels.all) {
         texels.side /= 2; // each root has a page
@@ -118,8 +118,8 @@ void VirtualPartition::listRoots(const Input& input, Found& found)
 Outcome VirtualPartition::addRoot(const Input& input, const Slice& slice, double border, PageRoot& root)
 {
     PageSpace& space = spaces_.back();
-    if (const Outcome seen = region_.gatherReceivers({space.space, slice, input.camera, *input.frame.objects,
-                                                      input.receivers, false, input.light.groups});
+    if (const Outcome seen = region_.gatherReceivers(
+            {space.space, slice, input.camera, *input.frame.objects, input.receivers, false, input.light.groups});
         seen.kind != OutcomeKind::ok) {
         return seen;
     }
