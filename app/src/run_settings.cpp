@@ -127,9 +127,10 @@ bool judgesALight(const Settings& s)
     return s.mask || (s.debug != "none" && s.debug != "light-count") || s.subcommand == kCompare || !s.draw.empty();
 }
 
-bool convergesAtRest(const Settings& s)
+bool drawsAtRest(const Settings& s)
 {
-    return s.shadow.technique.soften == Soften::converge && !s.frames;
+    const Technique& technique = s.shadow.technique;
+    return (technique.soften == Soften::converge || technique.partition == Partition::virtual_pages) && !s.frames;
 }
 
 void applySamples(Settings& s, const Value& v)
@@ -257,8 +258,8 @@ const std::vector<Setting>& rows()
          .doc = "how many seconds of the path pass in one", .subcommands = kMoving, .own_option = false, .used = [](const Settings& s) { return !s.path.empty(); }, .used_when = "--path",
          .apply = [](Settings& s, const Value& v) { s.path_speed = v.real; }},
         {.key = "converge", .group = Group::time, .type = integer, .form = "N", .unit = "frames", .default_text = "1", .min = 1, .max = 65536,
-         .doc = "draw this many at rest; the last counts", .subcommands = kRender | kCompare, .used = convergesAtRest,
-         .used_when = "soften converge and without --frames", .apply = [](Settings& s, const Value& v) { s.converge = static_cast<std::uint32_t>(v.integer); }},
+         .doc = "draw this many at rest; the last counts", .subcommands = kRender | kCompare, .used = drawsAtRest,
+         .used_when = "soften converge or partition virtual, and without --frames", .apply = [](Settings& s, const Value& v) { s.converge = static_cast<std::uint32_t>(v.integer); }},
         {.key = "animation", .group = Group::time, .type = text, .form = "NAME", .doc = "which animation of the file plays; else the first",
          .names_in = [](const scene::Scene& in) { return namesIn(in.animations); }, .apply = [](Settings& s, const Value& v) { s.animation = v.text; }},
 

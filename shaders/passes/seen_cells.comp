@@ -79,7 +79,7 @@ void main()
             Pixel pixel = pixelAt(place, toward);
             if (pixel.near > 0.0 && pixel.visibility >= 0.0) {
                 vec2 change = vec2(changeTo(place + ivec2(1, 0), pixel, toward), changeTo(place + ivec2(0, 1), pixel, toward));
-                float here = dot(change, change);
+                float here = (numbers.light.w & kSeenSoft) != 0 ? dot(change, change) : length(change);
                 edge += here;
                 // Of a cell without an edge its middle.
                 if (here > steepest || (place == middle && steepest == 0.0)) {

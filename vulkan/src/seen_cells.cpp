@@ -61,8 +61,9 @@ shared::SeenNumbers numbersOf(const Plan& plan, std::size_t index, const MaskInp
     shared::SeenNumbers numbers{};
     numbers.light.y = static_cast<int>(light.mask_layer);
     numbers.light.z = static_cast<int>(light.mask_channel);
-    numbers.light.w =
-        (inputs.normal != VK_NULL_HANDLE ? shared::kSeenNormals : 0) | (camera.reversed_z ? 0 : shared::kSeenFar);
+    const bool is_soft = (*plan.options)[light.options].integratesLight();
+    numbers.light.w = (inputs.normal != VK_NULL_HANDLE ? shared::kSeenNormals : 0) |
+                      (camera.reversed_z ? 0 : shared::kSeenFar) | (is_soft ? shared::kSeenSoft : 0);
     numbers.toward = glm::vec4(glm::vec3(-from.direction_ws), 0.0F);
     if (from.type != LightType::directional) {
         const double reach_m = extentOf(from, plan.made_for.scene_ws).reach_m;

@@ -71,7 +71,7 @@ void VirtualPartition::divide(const Input& input, std::size_t light)
     const ResolvedOptions& options = input.recipe.resolved;
     const PageTexels texels = pageTexelsOf(options, input.light);
     const double side = texels.side;
-    found.border = std::max(kPageBorder, options.borderOf(texels.side) / side);
+    found.border = std::max(options.integratesLight() ? kPageBorder : 0.0, options.borderOf(texels.side) / side);
     listRoots(input, found);
     if (found.outcome.kind != OutcomeKind::ok) {
         return;

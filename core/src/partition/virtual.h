@@ -15,7 +15,7 @@
 
 namespace gnomon {
 
-/// A page's border on each side, as a share of its side; more where the filter needs more.
+/// The border on each side of a page that has to hold rays, as a share of its side; more where the filter needs more.
 inline constexpr double kPageBorder = 14.0 / 128.0;
 /// Texels on a side of a page, where a light may have so many.
 inline constexpr std::uint32_t kPageSide = 128;
@@ -80,7 +80,7 @@ private:
     /// A light in this frame.
     struct Found {
         Outcome outcome;
-        double border = kPageBorder;   // share of a page's side
+        double border = 0.0;           // share of a page's side
         std::uint32_t first_space = 0; // of its roots, in spaces_
         std::uint32_t first_page = 0;
         std::uint32_t page_count = 0;
