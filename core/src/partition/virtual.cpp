@@ -25,22 +25,16 @@ const PageRequests* requestsOf(const Frame& frame, std::uint32_t key)
     return found != frame.requests.end() && !frame.cut ? &*found : nullptr;
 }
 
-} // namespace
-
-PageTexels pageTexelsOf(const ResolvedOptions& options, const Light& light)
+/// The texels that a light's pages may have together.
+std::uint64_t pageTexels(const ResolvedOptions& options, const Light& light)
 {
-    const std::uint32_t faces = pageFaces(light);
     const std::uint32_t largest = options.largestSide(light.type);
-    const std::uint64_t given = light.map_size != 0 ? std::clamp(light.map_size, kSmallestMap, largest) : largest;
-    PageTexels texels;
-    texels.all =
-        options.asked().map_size || light.map_size != 0 ? given * given * faces : texelsOf(options.asked(), light.type);
-    texels.side = std::min(kPageSide, largest);
-    while (texels.side > kSmallestMap && std::uint64_t{texels.side} * texels.side * faces > texels.all) {
-        texels.side /= 2; // each root has a page
-    }
-    return texels;
+    const std::uint64_t side = light.map_size != 0 ? std::clamp(light.map_size, kSmallestMap, largest) : largest;
+    const bool by_side = options.asked().map_size || light.map_size != 0; // as a cube's
+    return by_side ? side * side * pageFaces(light) : texelsOf(options.asked(), light.type);
 }
+
+} // namespace
 
 void VirtualPartition::follow(std::span<const Light> lights)
 {
@@ -69,25 +63,50 @@ void VirtualPartition::divide(const Input& input, std::size_t light)
     Memory& memory = memories_[rows_.rowOf(light)];
     Found& found = found_[light];
     const ResolvedOptions& options = input.recipe.resolved;
-    const PageTexels texels = pageTexelsOf(options, input.light);
-    const double side = texels.side;
-    found.border = std::max(options.integratesLight() ? kPageBorder : 0.0, options.borderOf(texels.side) / side);
+    found.texels = pageTexels(options, input.light);
+    const std::uint64_t faces = pageFaces(input.light);
+    found.side = std::min(kPageSide, options.largestSide(input.light.type));
+    while (found.side > kSmallestMap && faces * found.side * found.side > found.texels) {
+        found.side /= 2; // each root has a page
+    }
+    found.border = std::max(options.integratesLight() ? kPageBorder : 0.0, options.borderOf(found.side) / found.side);
     listRoots(input, found);
     if (found.outcome.kind != OutcomeKind::ok) {
         return;
     }
-    listPoints(input, found);
-    forgetOther(found, memory);
-    const double border = found.border * side;
     const PageSpread spread =
         options.integratesLight() ? pageSpreadOf(input.light, spaces_[found.first_space]) : PageSpread{};
+    widenPages(input, spread, found);
+    listPoints(input, found);
+    forgetOther(found, memory);
+    const double side = found.side;
+    const double border = found.border * side;
+    const std::uint64_t most = std::max<std::uint64_t>(found.texels / (std::uint64_t{found.side} * found.side), 1);
     tree_.divide({roots_, points_, boxes_, side - 2.0 * border, border,
                   tileMarginTexels(static_cast<double>(options.reach_texels())), spread.spread, spread.slant,
-                  static_cast<std::uint32_t>(
-                      std::max<std::uint64_t>(texels.all / (std::uint64_t{texels.side} * texels.side), 1)),
-                  memory.taken});
+                  static_cast<std::uint32_t>(most), memory.taken});
     memory.taken.assign(tree_.taken().begin(), tree_.taken().end());
     namePages(memory, found);
+}
+
+/// Around a light with a place something may cast so near to it, as a lampshade does, that no page narrower than the
+/// roots has room for the rays. Then these get the texels.
+void VirtualPartition::widenPages(const Input& input, const PageSpread& spread, Found& found) const
+{
+    if (!spaces_[found.first_space].space.perspective) {
+        return;
+    }
+    double nearest = 0.0;
+    for (const PageCaster& box : boxes_) {
+        nearest = std::min(nearest, box.nearest);
+    }
+    const double room = gnomon::sideOf(roots_.front().key) * found.border / (1.0 - 2.0 * found.border);
+    const std::uint64_t faces = pageFaces(input.light);
+    const std::uint32_t largest = input.recipe.resolved.largestSide(input.light.type);
+    while (-nearest * spread.spread > 0.5 * room && 2 * found.side <= largest &&
+           faces * 4 * found.side * found.side <= found.texels) {
+        found.side *= 2;
+    }
 }
 
 /// A root in which nobody is seen, or nobody casts, has no pages; the light has some when any root does.
@@ -158,7 +177,7 @@ PageKey VirtualPartition::rootAround(const LightRect& rect, double least_m)
     const double length = std::max({size.x, size.y, least_m});
     PageKey root;
     root.level = static_cast<int>(std::ceil(std::log2(length * (4.0 / 3.0) * (1.0 + 2.0 * kRoom))));
-    const double quarter = 0.25 * sideOf(root);
+    const double quarter = 0.25 * gnomon::sideOf(root);
     root.x = static_cast<std::int64_t>(std::floor((rect.low.x - kRoom * length) / quarter));
     root.y = static_cast<std::int64_t>(std::floor((rect.low.y - kRoom * length) / quarter));
     return root;
@@ -167,7 +186,7 @@ PageKey VirtualPartition::rootAround(const LightRect& rect, double least_m)
 /// All that may cast into the root, seen or not, so that a page's casters do not change with the camera.
 void VirtualPartition::listCasters(const Input& input, const PageSpace& space, double border_share, PageRoot& root)
 {
-    const double side = sideOf(root.key);
+    const double side = gnomon::sideOf(root.key);
     const double border = side * border_share / (1.0 - 2.0 * border_share);
     planesAroundPage(space, lowOf(root.key) - border, lowOf(root.key) + side + border, planes_);
     objects_.clear();

@@ -17,14 +17,8 @@ namespace gnomon {
 
 /// The border on each side of a page that has to hold rays, as a share of its side; more where the filter needs more.
 inline constexpr double kPageBorder = 14.0 / 128.0;
-/// Texels on a side of a page, where a light may have so many.
+/// Texels on a side of a page, where a light may have so many, and its rays have room in pages of several sizes.
 inline constexpr std::uint32_t kPageSide = 128;
-/// The texels that a light's pages may have together, and on a side of each.
-struct PageTexels {
-    std::uint64_t all = 0;
-    std::uint32_t side = 0;
-};
-[[nodiscard]] PageTexels pageTexelsOf(const ResolvedOptions& options, const Light& light);
 
 /// One page of a light in one frame.
 struct VirtualPage {
@@ -54,6 +48,8 @@ public:
     [[nodiscard]] const Outcome& outcomeOf(std::size_t light) const { return found_[light].outcome; }
     /// Finest first. Holds until the next divide().
     [[nodiscard]] std::span<const VirtualPage> pagesOf(std::size_t light) const;
+    /// Texels on a side of each of its pages.
+    [[nodiscard]] std::uint32_t sideOf(std::size_t light) const { return found_[light].side; }
     /// Objects whose boxes reach into a page or its border, ascending.
     [[nodiscard]] std::span<const std::uint32_t> castersOf(const VirtualPage& page) const
     {
@@ -80,6 +76,8 @@ private:
     /// A light in this frame.
     struct Found {
         Outcome outcome;
+        std::uint64_t texels = 0;      // of all its pages
+        std::uint32_t side = 0;        // texels of a page
         double border = 0.0;           // share of a page's side
         std::uint32_t first_space = 0; // of its roots, in spaces_
         std::uint32_t first_page = 0;
@@ -92,6 +90,7 @@ private:
     void listPoints(const Input& input, const Found& found);
     void addRequested(const Input& input, const PageRequests& requests, const Found& found);
     void addPoint(const Light& light, const Found& found, const glm::dvec3& p_ws, double pixel_m, double weight);
+    void widenPages(const Input& input, const PageSpread& spread, Found& found) const;
     void forgetOther(const Found& found, Memory& memory) const;
     void namePages(Memory& memory, Found& found);
 
