@@ -179,6 +179,20 @@ TEST_P(VirtualLamps, BordersHoldTheRaysToTheLight)
     EXPECT_GT(shaded, coarse);
 }
 
+/// In a shade no page but the roots has room for rays, and these have the texels.
+TEST_P(VirtualLamps, InAShadeTheRootsHaveTheTexels)
+{
+    street.options.technique.filter = Filter::raymarch;
+    const glm::vec3 place(street.lights[0].position_ws);
+    street.set.add({place - 0.3F, place + 0.3F});
+    Planner planner(street.options);
+    const Plan& plan = planner.plan(street.frame);
+    ASSERT_EQ(plan.lights[0].outcome.kind, OutcomeKind::ok) << plan.lights[0].outcome.reason;
+    EXPECT_LE(plan.views.size(), GetParam() == LightType::spot ? 1U : 6U);
+    for (const View& view : plan.views)
+        EXPECT_EQ(view.place.tile.width, GetParam() == LightType::spot ? 2048U : 512U);
+}
+
 /// Points of the picture are in what serves them, and its casters are drawn there.
 TEST(VirtualLampsOfRandomScenes, Hold)
 {

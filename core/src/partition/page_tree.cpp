@@ -35,6 +35,16 @@ glm::dvec2 lowOf(const PageKey& key)
     return glm::dvec2(static_cast<double>(key.x), static_cast<double>(key.y)) * (0.25 * sideOf(key));
 }
 
+double nearestOver(const PageCaster& caster, const glm::dvec2& low, const glm::dvec2& high)
+{
+    double enters = caster.nearest;
+    for (const glm::dvec3& face : caster.faces) {
+        enters = std::max(enters,
+                          face.z + face.x * (face.x > 0.0 ? low.x : high.x) + face.y * (face.y > 0.0 ? low.y : high.y));
+    }
+    return enters;
+}
+
 void PageTree::divide(const Input& input)
 {
     addRoots(input);
@@ -163,8 +173,7 @@ bool PageTree::listCasters(const Input& input, const Node& parent, Node& node)
     return node.caster_count > 0;
 }
 
-/// Does the border hold the rays from all its points to the light's rim, as far as somebody may cast? Over a square the
-/// depth where light comes into a box is no less than the least that any one pair of the box's faces allows.
+/// Does the border hold the rays from all its points to the light's rim, as far as somebody may cast?
 bool PageTree::holdsRays(const Input& input, const Node& node) const
 {
     const double side = sideOf(node.key);
@@ -180,12 +189,7 @@ bool PageTree::holdsRays(const Input& input, const Node& node) const
     double near = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < node.caster_count; ++i) {
         const PageCaster& box = input.casters[casters_[node.first_caster + i]];
-        double enters = box.nearest;
-        for (const glm::dvec3& face : box.faces) {
-            enters = std::max(enters, face.z + face.x * (face.x > 0.0 ? low.x : high.x) +
-                                          face.y * (face.y > 0.0 ? low.y : high.y));
-        }
-        near = std::min(near, enters);
+        near = std::min(near, nearestOver(box, low, high));
     }
     double far = -std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < node.point_count; ++i) {

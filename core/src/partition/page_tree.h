@@ -37,6 +37,10 @@ struct PageCaster {
     std::array<glm::dvec3, 3> faces{};
 };
 
+/// The least depth where light comes into its box over a rectangle, or less: no less than any one pair of the box's
+/// faces allows.
+[[nodiscard]] double nearestOver(const PageCaster& caster, const glm::dvec2& low, const glm::dvec2& high);
+
 /// A square of a light's grid: the same in every frame. Sides are powers of two of the space's unit.
 struct PageKey {
     int level = 0;          // its side is 2^level

@@ -9,9 +9,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gnomon {
 namespace {
@@ -96,9 +98,17 @@ void VirtualPartition::widenPages(const Input& input, const PageSpread& spread, 
     if (!spaces_[found.first_space].space.perspective) {
         return;
     }
-    double nearest = 0.0;
-    for (const PageCaster& box : boxes_) {
-        nearest = std::min(nearest, box.nearest);
+    double nearest = -std::numeric_limits<double>::infinity(); // over all of a root, of that where it is farthest
+    for (const PageRoot& root : roots_) {
+        const glm::dvec2 low = lowOf(root.key);
+        const glm::dvec2 high = low + gnomon::sideOf(root.key);
+        double own = root.caster_count > 0 ? 0.0 : nearest;
+        for (const PageCaster& box : std::span(boxes_).subspan(root.first_caster, root.caster_count)) {
+            const bool covers =
+                glm::all(glm::lessThanEqual(box.low, low)) && glm::all(glm::lessThanEqual(high, box.high));
+            own = covers ? std::min(own, nearestOver(box, low, high)) : own;
+        }
+        nearest = std::max(nearest, own);
     }
     const double room = gnomon::sideOf(roots_.front().key) * found.border / (1.0 - 2.0 * found.border);
     const std::uint64_t faces = pageFaces(input.light);
