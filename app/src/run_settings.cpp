@@ -258,7 +258,7 @@ const std::vector<Setting>& rows()
          .apply = [](Settings& s, const Value& v) { s.path_speed = v.real; }},
         {.key = "converge", .group = Group::time, .type = integer, .form = "N", .unit = "frames", .default_text = "1", .min = 1, .max = 65536,
          .doc = "draw this many at rest; the last counts", .subcommands = kRender | kCompare, .used = changesAtRest,
-         .used_when = "soften converge or partition virtual, without --frames", .apply = [](Settings& s, const Value& v) { s.converge = static_cast<std::uint32_t>(v.integer); }},
+         .used_when = "soften converge or partition virtual, and without --frames", .apply = [](Settings& s, const Value& v) { s.converge = static_cast<std::uint32_t>(v.integer); }},
         {.key = "animation", .group = Group::time, .type = text, .form = "NAME", .doc = "which animation of the file plays; else the first",
          .names_in = [](const scene::Scene& in) { return namesIn(in.animations); }, .apply = [](Settings& s, const Value& v) { s.animation = v.text; }},
 

@@ -23,9 +23,11 @@ constexpr std::uint32_t choiceBits(Enums... values)
 
 constexpr std::array kRules{
     ChoiceRule{Choice::light, choiceNumber(LightType::point), Choice::partition,
-               choiceBits(Partition::cube, Partition::paraboloid, Partition::multi, Partition::automatic), kNeeds,
+               choiceBits(Partition::cube, Partition::paraboloid, Partition::multi, Partition::automatic,
+                          Partition::virtual_pages),
+               kNeeds,
                "a point light, or a spot light wider than 120 degrees, shines farther around than one frustum "
-               "holds; it needs partition cube, paraboloid, multi or auto",
+               "holds; it needs partition cube, paraboloid, multi, virtual or auto",
                Filter::volumes},
     ChoiceRule{Choice::partition, choiceNumber(Partition::cube), Choice::light, choiceBits(LightType::directional),
                kRefuses,
@@ -86,10 +88,6 @@ constexpr std::array kRules{
     ChoiceRule{Choice::filter, choiceNumber(Filter::volumes), Choice::soften,
                choiceBits(Soften::smoothies, Soften::converge), kRefuses,
                "volumes has no maps, which smoothies and converge work on; it needs soften none or blur"},
-    ChoiceRule{Choice::partition, choiceNumber(Partition::virtual_pages), Choice::light,
-               choiceBits(LightType::directional), kNeeds,
-               "virtual has its pages on a grid across parallel rays; a light with a place needs another partition, or "
-               "auto"},
     ChoiceRule{
         Choice::partition, choiceNumber(Partition::virtual_pages), Choice::fit,
         choiceBits(Fit::uniform, Fit::automatic), kNeeds,

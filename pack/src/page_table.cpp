@@ -11,7 +11,10 @@
 namespace gnomon::pack {
 namespace {
 
-constexpr std::uint32_t kMostNodes = 0xFFFFU;
+/// A node is two vectors, and no more than a word's upper half of them lie after another of one light.
+constexpr std::uint32_t kMostNodes = 0x7FFFU;
+/// Entries of a light before all nodes.
+constexpr std::uint32_t kFaces = 6;
 
 /// Which square of its light's root a page is, among 2^depth on a side.
 struct PagePlace {
@@ -20,12 +23,29 @@ struct PagePlace {
     std::uint32_t y = 0;
 };
 
+/// The part of a row across that is the divisor's: of a page's, minus its middle in halves of its side. It is the
+/// constant under parallel rays, else what is along the axis.
+double middleOf(const glm::dvec4& row, const glm::dvec4& divisor)
+{
+    const glm::dvec3 axis(divisor);
+    return axis == glm::dvec3(0.0) ? row.w : glm::dot(glm::dvec3(row), axis);
+}
+
+double sharpnessOf(const ViewSector& sector)
+{
+    const glm::dvec3 across = glm::dvec3(sector.x) - glm::dvec3(sector.w) * middleOf(sector.x, sector.w);
+    const bool is_parallel = glm::dvec3(sector.w) == glm::dvec3(0.0);
+    return glm::length(is_parallel ? glm::dvec3(sector.x) : across);
+}
+
 PagePlace placeOf(const ViewSector& root, const ViewSector& page)
 {
-    const double times = glm::length(glm::dvec3(page.x)) / glm::length(glm::dvec3(root.x));
+    const double times = sharpnessOf(page) / sharpnessOf(root);
+    const auto middles = [](const ViewSector& sector) {
+        return glm::dvec2(middleOf(sector.x, sector.w), middleOf(sector.y, sector.w));
+    };
     // From the root's low end to the page's middle, in sides of the page.
-    const glm::dvec2 middle =
-        0.5 * (glm::dvec2(times) + times * glm::dvec2(root.x.w, root.y.w) - glm::dvec2(page.x.w, page.y.w));
+    const glm::dvec2 middle = 0.5 * (glm::dvec2(times) + times * middles(root) - middles(page));
     PagePlace place;
     place.depth = static_cast<std::uint32_t>(std::lround(std::log2(times)));
     place.x = static_cast<std::uint32_t>(middle.x);
@@ -33,37 +53,42 @@ PagePlace placeOf(const ViewSector& root, const ViewSector& page)
     return place;
 }
 
-class TableOfLight {
+/// The tree below one of a light's roots.
+class TableOfRoot {
 public:
-    TableOfLight(std::vector<glm::uvec2>& out, std::uint32_t root_view) : out_(out), first_(out.size())
+    /// `views`: the light's.
+    TableOfRoot(std::vector<glm::uvec2>& out, std::span<const View> views, std::uint32_t root)
+        : out_(out), first_(out.size())
     {
-        addNode(root_view);
+        const ViewSector& sector = views[root].serves.sector;
+        addNode(root);
+        for (std::uint32_t view = root; view-- > 0;) { // coarse ones first
+            if (views[view].serves.sector.w == sector.w) {
+                add(placeOf(sector, views[view].serves.sector), view);
+            }
+        }
     }
-    /// Coarse ones first.
+    [[nodiscard]] std::uint32_t first() const { return static_cast<std::uint32_t>(first_); }
+
+private:
     void add(const PagePlace& place, std::uint32_t view)
     {
-        std::uint32_t node = 1;
+        std::size_t node = first_;
         for (std::uint32_t left = place.depth; left-- > 0;) {
-            std::uint32_t& word = wordOf(node, place.x >> left & 1U, place.y >> left & 1U);
+            std::uint32_t& word = out_[node + (place.y >> left & 1U)][static_cast<int>(place.x >> left & 1U)];
             if (left == 0) {
                 word = (word & 0xFFFF0000U) | view;
             } else if (word >> 16U != 0) {
-                node = word >> 16U;
+                node += word >> 16U;
             } else if (count_ == kMostNodes) {
                 return; // it is served by the page around it
             } else {
                 const std::uint32_t served = word & 0xFFFFU;
-                node = count_ + 1;
-                word |= node << 16U;
+                word |= static_cast<std::uint32_t>(out_.size() - node) << 16U;
+                node = out_.size();
                 addNode(served);
             }
         }
-    }
-
-private:
-    std::uint32_t& wordOf(std::uint32_t node, std::uint32_t x, std::uint32_t y)
-    {
-        return out_[first_ + 2 * std::size_t{node - 1} + y][static_cast<int>(x)];
     }
     void addNode(std::uint32_t served)
     {
@@ -75,6 +100,33 @@ private:
     std::size_t first_;
     std::uint32_t count_ = 0;
 };
+
+/// Of which face of the cube around a light its root is, if it has several.
+std::uint32_t faceOf(const ViewSector& root)
+{
+    const glm::dvec3 axis(root.w);
+    const int number = std::abs(axis.x) > 0.5 ? 0 : std::abs(axis.y) > 0.5 ? 1 : 2;
+    return static_cast<std::uint32_t>(number + (axis[number] < 0.0 ? 3 : 0));
+}
+
+/// Its entries from `first` on, and its nodes.
+void addLight(std::span<const View> views, std::uint32_t first_view, std::size_t first, std::vector<glm::uvec2>& out)
+{
+    const double coarsest = sharpnessOf(views.back().serves.sector);
+    const auto last = static_cast<std::uint32_t>(views.size()) - 1;
+    for (std::uint32_t view = last + 1; view-- > 0;) {
+        const ViewSector& sector = views[view].serves.sector;
+        if (sharpnessOf(sector) > 1.5 * coarsest) {
+            return; // all roots were before
+        }
+        const TableOfRoot table(out, views, view);
+        const glm::uvec2 entry(table.first() - 1, first_view + view);
+        if (view == last) { // a face without a root finds pages that do not show it
+            std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(first), kFaces, entry);
+        }
+        out[first + faceOf(sector)] = entry;
+    }
+}
 
 } // namespace
 
@@ -93,20 +145,13 @@ void fillPageTable(const Plan& plan, std::vector<glm::uvec2>& out)
     if (std::ranges::none_of(plan.lights, isPaged)) {
         return;
     }
-    out.resize(plan.lights.size() + 2, glm::uvec2(0)); // so that the first node's place, less two, is none of these
+    out.resize(kFaces * plan.lights.size(), glm::uvec2(0));
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
         const LightPlan& light = plan.lights[i];
         if (!isPaged(light)) {
             continue;
         }
-        out[i].x = static_cast<std::uint32_t>(out.size()) - 2;
-        const std::span views = std::span(plan.views).subspan(light.first_view, light.view_count);
-        const ViewSector& root = views.back().serves.sector;
-        const std::uint32_t last = light.view_count - 1;
-        TableOfLight table(out, last);
-        for (std::uint32_t view = last; view-- > 0;) {
-            table.add(placeOf(root, views[view].serves.sector), view);
-        }
+        addLight(std::span(plan.views).subspan(light.first_view, light.view_count), light.first_view, kFaces * i, out);
     }
 }
 

@@ -27,22 +27,35 @@ struct Pixel {
     float visibility;
 };
 
-// A surface that faces away is dark whatever its map says.
-Pixel pixelAt(ivec2 place)
+// From a pixel to the light.
+vec3 towardLight(ivec2 place)
+{
+    if (numbers.toward.w == 0.0) {
+        return numbers.toward.xyz;
+    }
+    vec2 ndc = (vec2(place) + 0.5) / vec2(numbers.size.xy) * 2.0 - 1.0;
+    vec4 h = numbers.eye_from_ndc * vec4(ndc, texelFetch(depths, place, 0).r, 1.0);
+    return numbers.toward.xyz - h.xyz / h.w;
+}
+
+// A surface that faces away is dark whatever its map says, and one out of reach has no shadow.
+Pixel pixelAt(ivec2 place, vec3 toward)
 {
     Pixel pixel;
-    pixel.near = abs(texelFetch(depths, place, 0).r - numbers.toward.w);
+    pixel.near = abs(texelFetch(depths, place, 0).r - ((numbers.light.w & kSeenFar) != 0 ? 1.0 : 0.0));
     pixel.visibility = texelFetch(mask, ivec3(place, numbers.light.y), 0)[numbers.light.z];
-    if (numbers.light.w != 0 && dot(octahedralDecode(texelFetch(normals, place, 0).rg), numbers.toward.xyz) <= 0.0) {
+    bool faces_away = (numbers.light.w & kSeenNormals) != 0 &&
+                      dot(octahedralDecode(texelFetch(normals, place, 0).rg), toward) <= 0.0;
+    if (faces_away || (numbers.toward.w > 0.0 && length(toward) > numbers.toward.w)) {
         pixel.visibility = -1.0;
     }
     return pixel;
 }
 
 // By how much visibility changes to the next pixel on the same surface.
-float changeTo(ivec2 place, Pixel pixel)
+float changeTo(ivec2 place, Pixel pixel, vec3 toward)
 {
-    Pixel next = pixelAt(min(place, numbers.size.xy - 1));
+    Pixel next = pixelAt(min(place, numbers.size.xy - 1), toward);
     bool is_one = min(next.near, pixel.near) > kOneSurface * max(next.near, pixel.near);
     return is_one && min(next.visibility, pixel.visibility) >= 0.0 ? next.visibility - pixel.visibility : 0.0;
 }
@@ -62,10 +75,11 @@ void main()
     for (int y = begin.y; y < end.y; ++y) {
         for (int x = begin.x; x < end.x; ++x) {
             ivec2 place = ivec2(x, y);
-            Pixel pixel = pixelAt(place);
+            vec3 toward = towardLight(place);
+            Pixel pixel = pixelAt(place, toward);
             if (pixel.near > 0.0 && pixel.visibility >= 0.0) {
-                vec2 change = vec2(changeTo(place + ivec2(1, 0), pixel), changeTo(place + ivec2(0, 1), pixel));
-                float here = dot(change, change);
+                vec2 change = vec2(changeTo(place + ivec2(1, 0), pixel, toward), changeTo(place + ivec2(0, 1), pixel, toward));
+                float here = (numbers.light.w & kSeenSoft) != 0 ? dot(change, change) : length(change);
                 edge += here;
                 // Of a cell without an edge its middle.
                 if (here > steepest || (place == middle && steepest == 0.0)) {

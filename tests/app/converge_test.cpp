@@ -25,6 +25,7 @@ TEST(Converge, saysWhereItHasNoEffect)
     EXPECT_EQ(ran({"--soften", "converge", "--frames", "0-3", "--strict"}).status, 2);
     EXPECT_EQ(ran({"--soften", "converge", "--motion", "snap"}).status, 2);
     EXPECT_EQ(ran({"--soften", "converge"}).status, 0);
+    EXPECT_EQ(ran({"--partition", "virtual", "--strict"}).status, 0);
     const test::Ran alone = test::gnomon({"render", "planes", "--size", "32x18", "-o", "a.png", "--soften", "converge"},
                                          {.folder = folder.path()});
     EXPECT_EQ(alone.status, 0);

@@ -87,20 +87,15 @@ TEST(Choices, EveryValueGoesWithSomeLightAndTheOthersDefaults)
 TEST(Choices, APointLightGoesWithWhatGoesAroundAndCubeWithNoSun)
 {
     EXPECT_EQ(choiceRules()[0].refuses(),
-              "light point with every partition but cube, paraboloid, multi and auto, filter volumes apart");
+              "light point with every partition but cube, paraboloid, multi, auto and virtual, filter volumes apart");
     EXPECT_EQ(choiceRules()[1].refuses(), "partition cube with light directional");
     for (const ChoiceValue& partition : choiceValues()) {
         if (partition.choice != "partition")
             continue;
         const Technique technique{.partition = static_cast<Partition>(partition.value)};
         const bool around = partition.name == "cube" || partition.name == "paraboloid" || partition.name == "multi" ||
-                            partition.name == "auto";
+                            partition.name == "auto" || partition.name == "virtual";
         EXPECT_EQ(refusal(LightType::point, technique), around ? std::nullopt : std::optional(choiceRules()[0].reason));
-        if (partition.name == "virtual") {
-            EXPECT_EQ(refusal(LightType::directional, technique), std::nullopt);
-            EXPECT_TRUE(refusal(LightType::spot, technique)->starts_with("virtual has its pages on a grid"));
-            continue;
-        }
         for (const LightType other : {LightType::directional, LightType::spot})
             EXPECT_EQ(refusal(other, technique), partition.name == "cube" && other == LightType::directional
                                                      ? std::optional(choiceRules()[1].reason)

@@ -3,7 +3,7 @@
 #include "allocation_count.h"
 #include "draughtsman.h"
 #include "plan_judge.h"
-#include "random_scenes.h"
+#include "street.h"
 
 #include <gnomon/choice_rules.h>
 #include <gnomon/plan_views.h>
@@ -12,85 +12,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 #include <string>
-#include <vector>
 
 namespace gnomon {
 namespace {
 
+using test::drawnTexels;
+using test::kVirtual;
 using test::Random;
-
-constexpr Technique kVirtual{Partition::virtual_pages, Fit::uniform, Filter::pcf};
-
-/// A street of boxes on a floor under a sun.
-struct Street {
-    ObjectSet set;
-    std::vector<Light> lights;
-    std::vector<ObjectId> boxes;
-    ShadowOptions options{.technique = kVirtual, .max_texels = 2048 * 2048};
-    std::vector<SeenCell> cells;
-    std::vector<PageRequests> requests;
-    Frame frame;
-
-    Street()
-    {
-        set.add({{-200, -1, -200}, {200, 0, 200}});
-        Random random(3);
-        for (int i = 0; i < 200; ++i) {
-            const glm::dvec3 at = random.inBox({-100, 0, -100}, {100, 0, 100});
-            const glm::vec3 low(at);
-            boxes.push_back(set.add({low, low + glm::vec3(random.inBox({1, 1, 1}, {4, 9, 4}))}));
-        }
-        Light sun;
-        sun.key = 7;
-        sun.direction_ws = glm::normalize(glm::dvec3(0.4, -0.8, 0.3));
-        lights.push_back(sun);
-        frame.lights = lights;
-        frame.objects = &set;
-        look({0, 6, 30}, {0, 1, 0});
-    }
-    void look(const glm::dvec3& eye, const glm::dvec3& target)
-    {
-        frame.camera = test::perspectiveCamera(eye, target, 0.9, 16.0 / 9.0);
-    }
-    /// Requests of the floor, as this frame's camera sees it, with an edge around one place.
-    void request(const glm::dvec3& edge_ws, double around_m)
-    {
-        const glm::dmat4 clip = clipFromWorld(frame.camera);
-        cells.clear();
-        for (double x = -100.0; x <= 100.0; x += 1.0)
-            for (double z = -100.0; z <= 30.0; z += 1.0) {
-                const glm::dvec3 p(x, 0.0, z);
-                const glm::dvec4 h = clip * glm::dvec4(p, 1.0);
-                if (!(h.w > 0.1) || std::abs(h.x) > h.w || std::abs(h.y) > h.w)
-                    continue;
-                const glm::dvec2 place = (glm::dvec2(h) / h.w * 0.5 + 0.5) * glm::dvec2(frame.size_px);
-                cells.push_back({glm::vec2(place), static_cast<float>(h.z / h.w),
-                                 glm::distance(p, edge_ws) < around_m ? 8.0F : 0.0F});
-            }
-        requests = {{7, clip, frame.size_px, cells}};
-        frame.requests = requests;
-    }
-};
-
-std::uint64_t drawnTexels(const Plan& plan)
-{
-    std::uint64_t texels = 0;
-    for (const View& view : plan.views)
-        texels += texelsToDraw(view);
-    return texels;
-}
-
-/// The first view that serves a point: the finest one.
-const View* viewOf(const Plan& plan, const glm::dvec3& p)
-{
-    const auto found = std::ranges::find_if(plan.views, [&](const View& view) {
-        const auto place = placeOnMap(view, p);
-        return view.serves.sector.holds(p) && place && std::max(std::abs(place->x), std::abs(place->y)) < 1.0;
-    });
-    return found != plan.views.end() ? &*found : nullptr;
-}
+using test::Street;
+using test::viewOf;
 
 TEST(Virtual, HasAsManyPagesAsItsTexelsAllow)
 {
@@ -310,13 +241,14 @@ TEST(Virtual, AllocatesNextToNothingOnceWarm)
 
 TEST(Virtual, SaysWhatItDoesNotGoWith)
 {
-    ShadowOptions options{.technique = kVirtual, .max_texels = 2048 * 2048};
+    ShadowOptions options{.technique = kVirtual};
     EXPECT_EQ(refusal(LightType::directional, options), std::nullopt);
-    EXPECT_NE(refusal(LightType::spot, options), std::nullopt);
-    EXPECT_NE(refusal(LightType::point, options), std::nullopt);
+    EXPECT_EQ(refusal(LightType::spot, options), std::nullopt);
+    EXPECT_EQ(refusal(LightType::point, options), std::nullopt);
     for (const Filter filter : {Filter::vsm, Filter::id, Filter::smoothies, Filter::volumes}) {
         options.technique.filter = filter;
-        EXPECT_NE(refusal(LightType::directional, options), std::nullopt) << nameOf(filter);
+        for (const LightType type : {LightType::directional, LightType::spot, LightType::point})
+            EXPECT_NE(refusal(type, options), std::nullopt) << nameOf(filter);
     }
     options.technique = kVirtual;
     options.draw_budget_texels = 1000;

@@ -14,13 +14,30 @@
 namespace gnomon::host::test {
 namespace {
 
-/// The scene under its sun alone.
-std::vector<ShadedLight> sunOf(const scene::Scene& scene, const scene::State& state)
+class VirtualPages : public testing::TestWithParam<LightType> {
+protected:
+    /// The scene's sun alone, or its spot light, or that as a lamp.
+    std::vector<ShadedLight> light()
+    {
+        std::vector<ShadedLight> all = lightsOf(scene, state);
+        const bool sunny = GetParam() == LightType::directional;
+        std::erase_if(all,
+                      [&](const ShadedLight& one) { return (one.caster.type == LightType::directional) != sunny; });
+        all.at(0).caster.type = GetParam();
+        return all;
+    }
+    const scene::Scene scene = smallScene();
+    const scene::State state = scene::evaluate(scene, 0.0);
+    const std::vector<ShadedLight> lights = light();
+};
+
+std::string nameOfType(const testing::TestParamInfo<LightType>& info)
 {
-    std::vector<ShadedLight> lights = lightsOf(scene, state);
-    std::erase_if(lights, [](const ShadedLight& one) { return one.caster.type != LightType::directional; });
-    return lights;
+    return std::string(info.param == LightType::directional ? "sun" : info.param == LightType::spot ? "spot" : "point");
 }
+
+INSTANTIATE_TEST_SUITE_P(Types, VirtualPages,
+                         testing::Values(LightType::directional, LightType::spot, LightType::point), nameOfType);
 
 RenderOptions optionsOf(Technique technique, std::uint32_t texels)
 {
@@ -32,11 +49,8 @@ RenderOptions optionsOf(Technique technique, std::uint32_t texels)
     return options;
 }
 
-TEST(VirtualPages, FollowEdgesOfFramesBeforeAndComeToRest)
+TEST_P(VirtualPages, FollowEdgesOfFramesBeforeAndComeToRest)
 {
-    const scene::Scene scene = smallScene();
-    const scene::State state = scene::evaluate(scene, 0.0);
-    const std::vector<ShadedLight> lights = sunOf(scene, state);
     ASSERT_EQ(lights.size(), 1U);
     Gpu gpu({.gpu = "software", .validate = true});
     {
@@ -61,15 +75,13 @@ TEST(VirtualPages, FollowEdgesOfFramesBeforeAndComeToRest)
 }
 
 /// Pages are parts of one map, so a picture by them is one by a single map, but for edges, which are finer.
-TEST(VirtualPages, ShowWhatOneMapShows)
+TEST_P(VirtualPages, ShowWhatOneMapShows)
 {
-    const scene::Scene scene = smallScene();
-    const scene::State state = scene::evaluate(scene, 0.0);
-    const std::vector<ShadedLight> lights = sunOf(scene, state);
     Gpu gpu({.gpu = "software", .validate = true});
     const SceneOnGpu uploaded(gpu, scene, state);
     std::vector<ImageF> masks;
-    for (const Partition partition : {Partition::single, Partition::virtual_pages}) {
+    const Partition whole = GetParam() == LightType::point ? Partition::cube : Partition::single;
+    for (const Partition partition : {whole, Partition::virtual_pages}) {
         FrameRenderer renderer(uploaded, optionsOf({partition, Fit::uniform, Filter::pcf}, 1U << 22U));
         for (int i = 0; i < 4; ++i)
             renderer.draw(state, smallEye(), lights);

@@ -210,7 +210,7 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
         parts.mask_kept[slot] = kept ? 1 : 0;
     });
     const auto look = [&](RendererParts& parts) {
-        parts.seen.record(commands, slot, plan, inputs, parts.mask.mask());
+        parts.seen.record(commands, slot, plan, inputs, parts.mask.mask(), kept);
     };
     if (kept) {
         impl_->whole(look);

@@ -20,9 +20,10 @@ public:
     void warmUp();
     /// Makes what such a plan needs; nothing for a plan without lights of partition virtual.
     void prepare(const Plan& plan, VkExtent2D screen);
-    /// After the mask, which is readable. Afterwards the host may read once the GPU has finished.
+    /// After the mask, which is readable. Afterwards the host may read once the GPU has finished. `kept`: the mask is
+    /// that of the last record(); then a slot that shows it already is left as it is.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
-                const Image& mask);
+                const Image& mask, bool kept);
     /// By light, of the last record() with this slot. They hold until the next one, or prepare().
     [[nodiscard]] std::span<const PageRequests> read(std::uint32_t slot) const;
 
@@ -31,7 +32,9 @@ private:
         HostBuffer cells;
         VkDescriptorSet set = VK_NULL_HANDLE;
         std::vector<PageRequests> requests;
+        std::uint64_t mask = 0; // which it shows: masks_
     };
+    void bind(VkCommandBuffer commands, const Slot& slot, const MaskInputs& inputs, const Image& mask);
 
     Device& device_;
     VkPipelineCache cache_;
@@ -40,7 +43,8 @@ private:
     Pipeline pipeline_;
     Sampler nearest_;
     std::vector<Slot> slots_;
-    VkDeviceSize bytes_ = 0; // of each slot's cells
+    VkDeviceSize bytes_ = 0;  // of each slot's cells
+    std::uint64_t masks_ = 0; // number of masks that were drawn
 };
 
 } // namespace gnomon::vulkan

@@ -100,9 +100,10 @@ struct LightExtent {
 struct SeenCell {
     glm::vec2 place_px{0.0F}; // the point's pixel from the picture's top left corner; a pixel's middle is at 0.5
     float depth = 0.0F;       // as the depth buffer holds it there
-    /// How much a finer map is worth to the cell: the sum over its pixels of the squared difference in visibility from
-    /// one pixel to the next. A sharp edge across a cell of 8 x 8 pixels has about 8. Less than 0: nothing is to be
-    /// seen in the cell.
+    /// How much a finer map is worth to the cell: the sum over its pixels of the difference in visibility from one
+    /// pixel to the next. Where the light's filter makes edges as soft as the light is large, squared differences are
+    /// summed: a soft edge asks for less. A sharp edge across a cell of 8 x 8 pixels has about 8. Less than 0: nothing
+    /// is to be seen in the cell.
     float edge = -1.0F;
 };
 

@@ -31,10 +31,15 @@ Slice cubeFace(const Light& light, int face)
     return slice;
 }
 
+bool shinesIntoFace(const Light& light, const Slice& face)
+{
+    return shinesInto(light, face.axis_ws, kFaceCorner_rad);
+}
+
 void partitionCube(const PartitionInput& input, std::vector<Slice>& out)
 {
     for (int face = 0; face < static_cast<int>(kCubeFaces); ++face) {
-        if (const Slice slice = cubeFace(input.light, face); shinesInto(input.light, slice.axis_ws, kFaceCorner_rad)) {
+        if (const Slice slice = cubeFace(input.light, face); shinesIntoFace(input.light, slice)) {
             out.push_back(slice);
         }
     }

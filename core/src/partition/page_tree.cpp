@@ -35,9 +35,19 @@ glm::dvec2 lowOf(const PageKey& key)
     return glm::dvec2(static_cast<double>(key.x), static_cast<double>(key.y)) * (0.25 * sideOf(key));
 }
 
+double nearestOver(const PageCaster& caster, const glm::dvec2& low, const glm::dvec2& high)
+{
+    double enters = caster.nearest;
+    for (const glm::dvec3& face : caster.faces) {
+        enters = std::max(enters,
+                          face.z + face.x * (face.x > 0.0 ? low.x : high.x) + face.y * (face.y > 0.0 ? low.y : high.y));
+    }
+    return enters;
+}
+
 void PageTree::divide(const Input& input)
 {
-    addRoot(input);
+    addRoots(input);
     const auto later = [this](const Wish& a, const Wish& b) {
         return comesLater(a, b);
     };
@@ -56,7 +66,7 @@ bool PageTree::comesLater(const Wish& a, const Wish& b) const
     return a.gain != b.gain ? a.gain < b.gain : nodes_[b.node].key < nodes_[a.node].key;
 }
 
-void PageTree::addRoot(const Input& input)
+void PageTree::addRoots(const Input& input)
 {
     nodes_.clear();
     wishes_.clear();
@@ -64,15 +74,27 @@ void PageTree::addRoot(const Input& input)
     std::iota(order_.begin(), order_.end(), 0U);
     casters_.resize(input.casters.size());
     std::iota(casters_.begin(), casters_.end(), 0U);
-    Node root;
-    root.key = input.root;
-    root.point_count = static_cast<std::uint32_t>(order_.size());
-    root.caster_count = static_cast<std::uint32_t>(casters_.size());
-    root.served_m = sideOf(root.key) / input.inner_texels;
-    root.mapped = true;
-    page_count_ = 1;
-    nodes_.push_back(root);
-    addQuarters(input, 0);
+    auto first = order_.begin();
+    for (const PageRoot& root : input.roots) {
+        const auto end = std::partition(first, order_.end(),
+                                        [&](std::uint32_t point) { return input.points[point].face == root.key.face; });
+        if (root.caster_count > 0) {
+            Node node;
+            node.key = root.key;
+            node.first_point = static_cast<std::uint32_t>(first - order_.begin());
+            node.point_count = static_cast<std::uint32_t>(end - first);
+            node.first_caster = root.first_caster;
+            node.caster_count = root.caster_count;
+            node.served = sideOf(root.key) / input.inner_texels;
+            node.mapped = true;
+            nodes_.push_back(node);
+        }
+        first = end;
+    }
+    page_count_ = static_cast<std::uint32_t>(nodes_.size());
+    for (std::uint32_t root = 0; root < page_count_; ++root) {
+        addQuarters(input, root);
+    }
 }
 
 void PageTree::addQuarters(const Input& input, std::uint32_t parent)
@@ -90,7 +112,7 @@ void PageTree::addQuarters(const Input& input, std::uint32_t parent)
     const std::array bounds{begin, split(begin, above, 0), above, split(above, end, 0), end};
     for (std::size_t i = 0; i < 4; ++i) {
         // Its low corner is the parent's, or half a side on: in quarters of its own side 0 or 4 more.
-        const PageKey key{node.key.level - 1, 2 * node.key.x + 4 * static_cast<std::int64_t>(i & 1U),
+        const PageKey key{node.key.level - 1, node.key.face, 2 * node.key.x + 4 * static_cast<std::int64_t>(i & 1U),
                           2 * node.key.y + 4 * static_cast<std::int64_t>(i >> 1U)};
         addQuarter(input, parent, key, static_cast<std::uint32_t>(bounds[i] - order_.begin()),
                    static_cast<std::uint32_t>(bounds[i + 1] - bounds[i]));
@@ -102,15 +124,16 @@ void PageTree::addQuarters(const Input& input, std::uint32_t parent)
 void PageTree::addQuarter(const Input& input, std::uint32_t parent, const PageKey& key, std::uint32_t first,
                           std::uint32_t count)
 {
-    if (count == 0 || input.root.level - key.level > kDeepest) {
-        return;
-    }
     Node node;
     node.key = key;
+    node.depth = nodes_[parent].depth + 1;
+    if (count == 0 || node.depth > kDeepest) {
+        return;
+    }
     node.parent = parent;
     node.first_point = first;
     node.point_count = count;
-    node.served_m = nodes_[parent].served_m;
+    node.served = nodes_[parent].served;
     const Node above = nodes_[parent];
     if (!listCasters(input, above, node)) {
         return;
@@ -126,7 +149,7 @@ void PageTree::addQuarter(const Input& input, std::uint32_t parent, const PageKe
         return;
     }
     const bool is_known = std::ranges::binary_search(input.known, key);
-    nodes_[index].served_m = sideOf(key) / input.inner_texels;
+    nodes_[index].served = sideOf(key) / input.inner_texels;
     wishes_.push_back({is_known ? gain * kStays : gain, index});
     std::ranges::push_heap(wishes_, [this](const Wish& a, const Wish& b) { return comesLater(a, b); });
 }
@@ -150,8 +173,7 @@ bool PageTree::listCasters(const Input& input, const Node& parent, Node& node)
     return node.caster_count > 0;
 }
 
-/// Does the border hold the rays from all its points to the light's rim, as far as somebody may cast? Over a square the
-/// depth where light comes into a box is no less than the least that any one pair of the box's faces allows.
+/// Does the border hold the rays from all its points to the light's rim, as far as somebody may cast?
 bool PageTree::holdsRays(const Input& input, const Node& node) const
 {
     const double side = sideOf(node.key);
@@ -162,21 +184,18 @@ bool PageTree::holdsRays(const Input& input, const Node& node) const
     const double border = texel * input.border_texels;
     const glm::dvec2 low = lowOf(node.key) - border;
     const glm::dvec2 high = lowOf(node.key) + side + border;
-    double near_m = std::numeric_limits<double>::infinity();
+    const double outmost = std::max({-low.x, -low.y, high.x, high.y});
+    const double spread = input.spread * std::sqrt(1.0 + input.slant * outmost * outmost);
+    double near = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < node.caster_count; ++i) {
         const PageCaster& box = input.casters[casters_[node.first_caster + i]];
-        double enters_m = box.nearest_m;
-        for (const glm::dvec3& face : box.faces) {
-            enters_m = std::max(enters_m, face.z + face.x * (face.x > 0.0 ? low.x : high.x) +
-                                              face.y * (face.y > 0.0 ? low.y : high.y));
-        }
-        near_m = std::min(near_m, enters_m);
+        near = std::min(near, nearestOver(box, low, high));
     }
-    double far_m = -std::numeric_limits<double>::infinity();
+    double far = -std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < node.point_count; ++i) {
-        far_m = std::max(far_m, input.points[order_[node.first_point + i]].depth_m);
+        far = std::max(far, input.points[order_[node.first_point + i]].depth);
     }
-    return (far_m - near_m) * input.spread + input.reach_texels * texel <= border;
+    return (far - near) * spread + input.reach_texels * texel <= border;
 }
 
 /// By how much the squared error of its points falls with it.
@@ -186,7 +205,7 @@ double PageTree::gainOf(const Input& input, const Node& node) const
     double gain = 0.0;
     for (std::uint32_t i = 0; i < node.point_count; ++i) {
         const PagePoint& point = input.points[order_[node.first_point + i]];
-        gain += point.weight * (errorOf(node.served_m / point.pixel_m) - errorOf(texel / point.pixel_m));
+        gain += point.weight * (errorOf(node.served / point.pixel) - errorOf(texel / point.pixel));
     }
     return gain;
 }

@@ -60,6 +60,8 @@ inline constexpr std::uint32_t kHemispheres = 2;
 [[nodiscard]] Slice wholeSlice(const Light& light);
 /// Around a light's place: 0, 1: +x, -x, then y and z.
 [[nodiscard]] Slice cubeFace(const Light& light, int face);
+/// Does the cone of a spot light, if it is one, reach into that face?
+[[nodiscard]] bool shinesIntoFace(const Light& light, const Slice& face);
 /// Plane z = depth of the view, which faces away from the eye or towards it.
 [[nodiscard]] Plane depthPlane(const CameraView& view, double depth_m, bool away);
 

@@ -6,16 +6,14 @@
 // around a receiver, so every filter of depths reads a page as it reads any map.
 #include "partition/virtual.h"
 
-#include "motion/steps.h"
-
-#include <gnomon/plan_views.h>
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gnomon {
 namespace {
@@ -23,44 +21,19 @@ namespace {
 /// A cell of a picture without an edge counts for this much of an edge: the next picture may have one there.
 constexpr double kUnknownEdge = 0.05;
 
-/// How deep along the light a scene reaches, in steps, so that pages hold while something moves.
-DepthRange depthsOf(const LightSpace& space, const Aabb& scene_ws, double pad_m)
-{
-    const glm::dvec3 centre = 0.5 * (glm::dvec3(scene_ws.min) + glm::dvec3(scene_ws.max));
-    const glm::dvec3 half = 0.5 * (glm::dvec3(scene_ws.max) - glm::dvec3(scene_ws.min));
-    const double middle_m = space.coordinates(centre).z;
-    const double reach_m = glm::dot(glm::abs(space.depth_ws), half) + 32.0 * pad_m + kLeastRange * glm::length(half);
-    const SteppedRange stepped = steppedRange(middle_m - reach_m, middle_m + reach_m);
-    return {stepped.low, stepped.high};
-}
-
-PageCaster casterOf(const LightSpace& space, std::uint32_t object, const Aabb& box)
-{
-    constexpr double kAlong = 1e-6; // the cosine of faces that light does not come in by
-    const glm::dvec3 centre = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max));
-    const glm::dvec3 half = 0.5 * (glm::dvec3(box.max) - glm::dvec3(box.min));
-    const glm::dvec3 at = space.coordinates(centre);
-    const glm::dvec2 reach(glm::dot(glm::abs(space.right_ws), half), glm::dot(glm::abs(space.up_ws), half));
-    PageCaster caster;
-    caster.object = object;
-    caster.low = glm::dvec2(at) - reach;
-    caster.high = glm::dvec2(at) + reach;
-    caster.nearest_m = at.z - glm::dot(glm::abs(space.depth_ws), half);
-    for (int axis = 0; axis < 3; ++axis) {
-        const double along = space.depth_ws[axis];
-        caster.faces[axis] = {0.0, 0.0, caster.nearest_m};
-        if (std::abs(along) > kAlong) {
-            const double enters = along > 0.0 ? centre[axis] - half[axis] : centre[axis] + half[axis];
-            caster.faces[axis] = glm::dvec3(-space.right_ws[axis], -space.up_ws[axis], enters) / along;
-        }
-    }
-    return caster;
-}
-
 const PageRequests* requestsOf(const Frame& frame, std::uint32_t key)
 {
     const auto found = std::ranges::find(frame.requests, key, &PageRequests::light_key);
     return found != frame.requests.end() && !frame.cut ? &*found : nullptr;
+}
+
+/// The texels that a light's pages may have together.
+std::uint64_t pageTexels(const ResolvedOptions& options, const Light& light)
+{
+    const std::uint32_t largest = options.largestSide(light.type);
+    const std::uint64_t side = light.map_size != 0 ? std::clamp(light.map_size, kSmallestMap, largest) : largest;
+    const bool by_side = options.asked().map_size || light.map_size != 0; // as a cube's
+    return by_side ? side * side * pageFaces(light) : texelsOf(options.asked(), light.type);
 }
 
 } // namespace
@@ -77,6 +50,7 @@ void VirtualPartition::follow(std::span<const Light> lights)
         memories_[row] = {};
     }
     found_.assign(lights.size(), {});
+    spaces_.clear();
     pages_.clear();
     casters_.clear();
 }
@@ -90,42 +64,118 @@ void VirtualPartition::divide(const Input& input, std::size_t light)
 {
     Memory& memory = memories_[rows_.rowOf(light)];
     Found& found = found_[light];
-    const Slice whole = wholeSlice(input.light);
-    found.space = lightSpaceOf(input.light, whole.axis_ws, whole.half_angle_rad, input.camera.scene_ws);
-    found.outcome = region_.gatherReceivers(
-        {found.space, whole, input.camera, *input.frame.objects, input.receivers, false, input.light.groups});
+    const ResolvedOptions& options = input.recipe.resolved;
+    found.texels = pageTexels(options, input.light);
+    const std::uint64_t faces = pageFaces(input.light);
+    found.side = std::min(kPageSide, options.largestSide(input.light.type));
+    while (found.side > kSmallestMap && faces * found.side * found.side > found.texels) {
+        found.side /= 2; // each root has a page
+    }
+    found.border = std::max(options.integratesLight() ? kPageBorder : 0.0, options.borderOf(found.side) / found.side);
+    listRoots(input, found);
     if (found.outcome.kind != OutcomeKind::ok) {
         return;
     }
-    const ResolvedOptions& options = input.recipe.resolved;
-    const std::uint32_t largest = options.largestSide(input.light.type);
-    const std::uint32_t side = std::min(kPageSide, largest);
-    found.border = std::max(kPageBorder, options.borderOf(side) / side);
-    const PageKey root = rootAround(region_.rect(), 32.0 * input.camera.pad_m);
-    listCasters(input, found.space, root, found.border);
-    if (boxes_.empty()) {
-        found.outcome = {OutcomeKind::no_caster, "nothing can throw a shadow on what the camera sees"};
-        return;
-    }
-    found.range = depthsOf(found.space, input.frame.objects->bounds(), input.camera.pad_m);
-    listPoints(input, found.space);
-    if (memory.direction_ws != found.space.forward_ws) {
-        memory.pages.clear();
-        memory.taken.clear();
-        memory.direction_ws = found.space.forward_ws;
-    }
+    const PageSpread spread =
+        options.integratesLight() ? pageSpreadOf(input.light, spaces_[found.first_space]) : PageSpread{};
+    widenPages(input, spread, found);
+    listPoints(input, found);
+    forgetOther(found, memory);
+    const double side = found.side;
     const double border = found.border * side;
-    const std::uint64_t together = input.light.map_size != 0 ? std::min(input.light.map_size, largest) : largest;
-    const std::uint64_t texels = options.asked().map_size || input.light.map_size != 0
-                                     ? together * together
-                                     : texelsOf(options.asked(), input.light.type);
-    const double spread = options.integratesLight() ? std::tan(0.5 * input.light.angular_diameter_rad) : 0.0;
-    tree_.divide({root, points_, boxes_, side - 2.0 * border, border,
-                  tileMarginTexels(static_cast<double>(options.reach_texels())), spread,
-                  static_cast<std::uint32_t>(std::max<std::uint64_t>(texels / (std::uint64_t{side} * side), 1)),
-                  memory.taken});
+    const std::uint64_t most = std::max<std::uint64_t>(found.texels / (std::uint64_t{found.side} * found.side), 1);
+    tree_.divide({roots_, points_, boxes_, side - 2.0 * border, border,
+                  tileMarginTexels(static_cast<double>(options.reach_texels())), spread.spread, spread.slant,
+                  static_cast<std::uint32_t>(most), memory.taken});
     memory.taken.assign(tree_.taken().begin(), tree_.taken().end());
     namePages(memory, found);
+}
+
+/// Around a light with a place something may cast so near to it, as a lampshade does, that no page narrower than the
+/// roots has room for the rays. Then these get the texels.
+void VirtualPartition::widenPages(const Input& input, const PageSpread& spread, Found& found) const
+{
+    if (!spaces_[found.first_space].space.perspective) {
+        return;
+    }
+    double nearest = -std::numeric_limits<double>::infinity(); // over all of a root, of that where it is farthest
+    for (const PageRoot& root : roots_) {
+        const glm::dvec2 low = lowOf(root.key);
+        const glm::dvec2 high = low + gnomon::sideOf(root.key);
+        double own = root.caster_count > 0 ? 0.0 : nearest;
+        for (const PageCaster& box : std::span(boxes_).subspan(root.first_caster, root.caster_count)) {
+            const bool covers =
+                glm::all(glm::lessThanEqual(box.low, low)) && glm::all(glm::lessThanEqual(high, box.high));
+            own = covers ? std::min(own, nearestOver(box, low, high)) : own;
+        }
+        nearest = std::max(nearest, own);
+    }
+    const double room = gnomon::sideOf(roots_.front().key) * found.border / (1.0 - 2.0 * found.border);
+    const std::uint64_t faces = pageFaces(input.light);
+    const std::uint32_t largest = input.recipe.resolved.largestSide(input.light.type);
+    while (-nearest * spread.spread > 0.5 * room && 2 * found.side <= largest &&
+           faces * 4 * found.side * found.side <= found.texels) {
+        found.side *= 2;
+    }
+}
+
+/// A root in which nobody is seen, or nobody casts, has no pages; the light has some when any root does.
+void VirtualPartition::listRoots(const Input& input, Found& found)
+{
+    found.first_space = static_cast<std::uint32_t>(spaces_.size());
+    found.outcome = {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
+    roots_.clear();
+    boxes_.clear();
+    const std::uint32_t faces = pageFaces(input.light);
+    for (std::uint32_t face = 0; face < faces; ++face) {
+        PageRoot& root = roots_.emplace_back();
+        const bool whole = faces == 1;
+        const Slice slice = whole ? wholeSlice(input.light) : cubeFace(input.light, static_cast<int>(face));
+        spaces_.push_back(pageSpaceOf(input.light, slice, input.camera.scene_ws));
+        root.key = {1, face, -2, -2}; // from -1 to 1
+        if (!whole && !shinesIntoFace(input.light, slice)) {
+            continue;
+        }
+        const Outcome outcome = addRoot(input, slice, found.border, root);
+        const bool says_more = outcome.kind == OutcomeKind::ok || outcome.kind == OutcomeKind::degenerate || whole;
+        if (says_more || found.outcome.kind == OutcomeKind::no_receiver) {
+            found.outcome = outcome;
+        }
+    }
+}
+
+Outcome VirtualPartition::addRoot(const Input& input, const Slice& slice, double border, PageRoot& root)
+{
+    PageSpace& space = spaces_.back();
+    if (const Outcome seen = region_.gatherReceivers(
+            {space.space, slice, input.camera, *input.frame.objects, input.receivers, false, input.light.groups});
+        seen.kind != OutcomeKind::ok) {
+        return seen;
+    }
+    if (!space.space.perspective) {
+        root.key = rootAround(region_.rect(), 32.0 * input.camera.pad_m);
+    }
+    listCasters(input, space, border, root);
+    if (root.caster_count == 0) {
+        return {OutcomeKind::no_caster, "nothing can throw a shadow on what the camera sees"};
+    }
+    space.range = pageDepths(space, input.frame.objects->bounds(), std::span(boxes_).subspan(root.first_caster),
+                             input.camera.pad_m);
+    return {};
+}
+
+/// What was known of pages that showed something else.
+void VirtualPartition::forgetOther(const Found& found, Memory& memory) const
+{
+    const PageSpace& first = spaces_[found.first_space];
+    if (memory.place_ws != first.space.origin_ws || memory.direction_ws != first.space.forward_ws ||
+        memory.unit != first.unit) {
+        memory.pages.clear();
+        memory.taken.clear();
+    }
+    memory.place_ws = first.space.origin_ws;
+    memory.direction_ws = first.space.forward_ws;
+    memory.unit = first.unit;
 }
 
 /// A square of the grid around a rectangle. Its low corner is a multiple of a quarter of its side, so that all but the
@@ -137,47 +187,45 @@ PageKey VirtualPartition::rootAround(const LightRect& rect, double least_m)
     const double length = std::max({size.x, size.y, least_m});
     PageKey root;
     root.level = static_cast<int>(std::ceil(std::log2(length * (4.0 / 3.0) * (1.0 + 2.0 * kRoom))));
-    const double quarter = 0.25 * sideOf(root);
+    const double quarter = 0.25 * gnomon::sideOf(root);
     root.x = static_cast<std::int64_t>(std::floor((rect.low.x - kRoom * length) / quarter));
     root.y = static_cast<std::int64_t>(std::floor((rect.low.y - kRoom * length) / quarter));
     return root;
 }
 
 /// All that may cast into the root, seen or not, so that a page's casters do not change with the camera.
-void VirtualPartition::listCasters(const Input& input, const LightSpace& space, const PageKey& root,
-                                   double border_share)
+void VirtualPartition::listCasters(const Input& input, const PageSpace& space, double border_share, PageRoot& root)
 {
-    const double side = sideOf(root);
+    const double side = gnomon::sideOf(root.key);
     const double border = side * border_share / (1.0 - 2.0 * border_share);
-    const glm::dvec2 low = lowOf(root) - border;
-    const glm::dvec2 high = lowOf(root) + side + border;
-    const std::array planes{Plane{space.right_ws, -low.x}, Plane{-space.right_ws, high.x}, Plane{space.up_ws, -low.y},
-                            Plane{-space.up_ws, high.y}};
+    planesAroundPage(space, lowOf(root.key) - border, lowOf(root.key) + side + border, planes_);
     objects_.clear();
-    input.frame.objects->query(planes, ObjectSet::Want::casters, objects_, input.light.groups);
-    boxes_.clear();
+    input.frame.objects->query(planes_, ObjectSet::Want::casters, objects_, input.light.groups);
+    root.first_caster = static_cast<std::uint32_t>(boxes_.size());
     const std::span<const Aabb> bounds = input.frame.objects->allBounds();
     for (const std::uint32_t object : objects_) {
-        boxes_.push_back(casterOf(space, object, bounds[object]));
+        if (const std::optional<PageCaster> caster = pageCasterOf(space, object, bounds[object])) {
+            boxes_.push_back(*caster);
+        }
     }
+    root.caster_count = static_cast<std::uint32_t>(boxes_.size()) - root.first_caster;
 }
 
-void VirtualPartition::listPoints(const Input& input, const LightSpace& space)
+void VirtualPartition::listPoints(const Input& input, const Found& found)
 {
     points_.clear();
     if (const PageRequests* const requests = requestsOf(input.frame, input.light.key)) {
-        addRequested(*requests, space);
+        addRequested(input, *requests, found);
     }
     if (!points_.empty()) {
         return;
     }
     for (const SightPoint& seen : input.sight.points()) {
-        const glm::dvec3 at = space.coordinates(seen.p_ws);
-        points_.push_back({glm::dvec2(at), at.z, seen.facing_m, 1.0});
+        addPoint(input.light, found, seen.p_ws, seen.facing_m, 1.0);
     }
 }
 
-void VirtualPartition::addRequested(const PageRequests& requests, const LightSpace& space)
+void VirtualPartition::addRequested(const Input& input, const PageRequests& requests, const Found& found)
 {
     const glm::dmat4 world_from_clip = glm::inverse(requests.clip_from_world);
     const glm::dvec2 per_pixel = 2.0 / glm::max(glm::dvec2(requests.size_px), glm::dvec2(1.0));
@@ -193,11 +241,24 @@ void VirtualPartition::addRequested(const PageRequests& requests, const LightSpa
         const double depth = static_cast<double>(cell.depth);
         const glm::dvec3 p_ws = worldAt(pixel, depth);
         const double pixel_m = glm::distance(worldAt(pixel + glm::dvec2(1.0, 0.0), depth), p_ws);
-        const glm::dvec3 at = space.coordinates(p_ws);
-        const double weight = kUnknownEdge + static_cast<double>(cell.edge);
-        if (pixel_m > 0.0 && std::isfinite(at.x + at.y + at.z + pixel_m + weight)) {
-            points_.push_back({glm::dvec2(at), at.z, pixel_m, weight});
-        }
+        addPoint(input.light, found, p_ws, pixel_m, kUnknownEdge + static_cast<double>(cell.edge));
+    }
+}
+
+void VirtualPartition::addPoint(const Light& light, const Found& found, const glm::dvec3& p_ws, double pixel_m,
+                                double weight)
+{
+    if (!(pixel_m > 0.0) || !std::isfinite(p_ws.x + p_ws.y + p_ws.z + pixel_m + weight)) {
+        return;
+    }
+    const std::uint32_t face = pageFaceAt(light, p_ws);
+    if (roots_[face].caster_count == 0) {
+        return;
+    }
+    if (std::optional<PagePoint> point = pagePointOf(light, spaces_[found.first_space + face], p_ws, pixel_m)) {
+        point->face = face;
+        point->weight = weight;
+        points_.push_back(*point);
     }
 }
 
@@ -226,28 +287,7 @@ void VirtualPartition::namePages(Memory& memory, Found& found)
 
 void VirtualPartition::project(std::size_t light, const VirtualPage& page, std::uint32_t side, View& view) const
 {
-    const LightSpace& space = found_[light].space;
-    const DepthRange& range = found_[light].range;
-    const double length = sideOf(page.key);
-    const double texel = length / (side * (1.0 - 2.0 * found_[light].border));
-    const glm::dvec2 centre = lowOf(page.key) + 0.5 * length;
-    const MapFrame frame{centre, glm::dvec2(0.5 * side * texel), glm::dvec2(texel)};
-    ViewProjection& projection = view.projection;
-    projection.clip_from_world = clipFromWorld(space, {}, frame, range.near_m, range.far_m);
-    projection.parallel = true;
-    projection.orthographic = true;
-    projection.clamp_near = false; // the range has room for all casters
-    projection.texel_m = texel;
-    projection.texel_xy_m = glm::dvec2(texel);
-    projection.light_reach = 0.0;
-    projection.light_place_ws = space.right_ws * centre.x + space.up_ws * centre.y + space.forward_ws * range.near_m;
-    projection.metric.near_m = 0.0;
-    projection.metric.far_m = range.far_m - range.near_m;
-    projection.metric.metric_ws = glm::dvec4(space.depth_ws, -range.near_m) / (range.far_m - range.near_m);
-    view.fit.finest_texel = glm::dvec2(texel);
-    view.fit.coarsest_texel = glm::dvec2(texel);
-    view.serves.sector.x = glm::dvec4(space.right_ws, -centre.x) / (0.5 * length);
-    view.serves.sector.y = glm::dvec4(space.up_ws, -centre.y) / (0.5 * length);
+    projectPage(spaces_[found_[light].first_space + page.key.face], page.key, side, found_[light].border, view);
 }
 
 } // namespace gnomon

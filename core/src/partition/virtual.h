@@ -3,8 +3,7 @@
 // still in the world. Pages are narrow where the picture has edges of shadows, and are kept from frame to frame.
 #pragma once
 
-#include "depth_range.h"
-#include "partition/page_tree.h"
+#include "partition/page_space.h"
 #include "recipe.h"
 #include "region.h"
 #include "store/light_rows.h"
@@ -16,9 +15,9 @@
 
 namespace gnomon {
 
-/// A page's border on each side, as a share of its side; more where the filter needs more.
+/// The border on each side of a page that has to hold rays, as a share of its side; more where the filter needs more.
 inline constexpr double kPageBorder = 14.0 / 128.0;
-/// Texels on a side of a page, where a light may have so many.
+/// Texels on a side of a page, where a light may have so many, and its rays have room in pages of several sizes.
 inline constexpr std::uint32_t kPageSide = 128;
 
 /// One page of a light in one frame.
@@ -49,6 +48,8 @@ public:
     [[nodiscard]] const Outcome& outcomeOf(std::size_t light) const { return found_[light].outcome; }
     /// Finest first. Holds until the next divide().
     [[nodiscard]] std::span<const VirtualPage> pagesOf(std::size_t light) const;
+    /// Texels on a side of each of its pages.
+    [[nodiscard]] std::uint32_t sideOf(std::size_t light) const { return found_[light].side; }
     /// Objects whose boxes reach into a page or its border, ascending.
     [[nodiscard]] std::span<const std::uint32_t> castersOf(const VirtualPage& page) const
     {
@@ -67,33 +68,45 @@ private:
         std::vector<Known> next;
         std::vector<PageKey> taken; // PageTree::taken()
         std::uint32_t next_id = 1;
-        glm::dvec3 direction_ws{0.0}; // pages of another direction show something else
+        // Pages of another place, direction or angle show something else.
+        glm::dvec3 place_ws{0.0};
+        glm::dvec3 direction_ws{0.0};
+        double unit = 0.0;
     };
     /// A light in this frame.
     struct Found {
         Outcome outcome;
-        LightSpace space;
-        DepthRange range;
-        double border = kPageBorder; // share of a page's side
+        std::uint64_t texels = 0;      // of all its pages
+        std::uint32_t side = 0;        // texels of a page
+        double border = 0.0;           // share of a page's side
+        std::uint32_t first_space = 0; // of its roots, in spaces_
         std::uint32_t first_page = 0;
         std::uint32_t page_count = 0;
     };
     [[nodiscard]] static PageKey rootAround(const LightRect& rect, double least_m);
-    void listCasters(const Input& input, const LightSpace& space, const PageKey& root, double border_share);
-    void listPoints(const Input& input, const LightSpace& space);
-    void addRequested(const PageRequests& requests, const LightSpace& space);
+    void listRoots(const Input& input, Found& found);
+    [[nodiscard]] Outcome addRoot(const Input& input, const Slice& slice, double border, PageRoot& root);
+    void listCasters(const Input& input, const PageSpace& space, double border, PageRoot& root);
+    void listPoints(const Input& input, const Found& found);
+    void addRequested(const Input& input, const PageRequests& requests, const Found& found);
+    void addPoint(const Light& light, const Found& found, const glm::dvec3& p_ws, double pixel_m, double weight);
+    void widenPages(const Input& input, const PageSpread& spread, Found& found) const;
+    void forgetOther(const Found& found, Memory& memory) const;
     void namePages(Memory& memory, Found& found);
 
     LightRows rows_;
     std::vector<Memory> memories_; // by row
     std::vector<Found> found_;     // by light
+    std::vector<PageSpace> spaces_;
     std::vector<VirtualPage> pages_;
     std::vector<std::uint32_t> casters_;
     // Scratch.
     std::vector<std::uint64_t> keys_;
     Region region_;
     PageTree tree_;
+    std::vector<PageRoot> roots_;
     std::vector<PagePoint> points_;
+    std::vector<Plane> planes_;
     std::vector<std::uint32_t> objects_;
     std::vector<PageCaster> boxes_;
 };

@@ -143,7 +143,7 @@ void Frustums::listTenants(const Sights& sights)
             const Recipe& recipe = sights.setups()[lights[index].options].recipe;
             keys_.push_back(tenantKey(lights[index], page.id));
             wishes_.push_back(recipe.wishOf(lights[index], lights[index].options, *recipe.partition, 0));
-            wishes_.back().side = std::min(kPageSide, recipe.resolved.largestSide(lights[index].type));
+            wishes_.back().side = virtual_.sideOf(index);
         }
     }
     first_tenants_.push_back(static_cast<std::uint32_t>(keys_.size()));

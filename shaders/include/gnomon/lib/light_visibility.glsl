@@ -365,18 +365,25 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
 // A pass may define GNOMON_PAGES, whether its lights have pages, a constant, and GNOMON_PAGE_WORDS, the words of
 // pack::fillPageTable(). Without it each page is asked in turn.
 #ifdef GNOMON_PAGES
-// The finest page around a point: from the root, which is the light's last view, down to where nothing is finer.
-uint pageAt(GpuLight light, vec3 p)
+// The finest page around a point: down from the root of the light's face that the point is in, to where nothing is finer.
+// `toward`: from the point to a light with a place. Of a light with one root all faces are that. Nothing branches but the
+// walk, which keeps the module small.
+uint pageAt(GpuLight light, vec4 p, vec3 toward)
 {
-    GpuView root = gnomon_views[light.views.x + light.views.y - 1u];
-    vec2 at = vec2(dotRow(root.sector_x, p), dotRow(root.sector_y, p)) * 0.5 + 0.5;
-    uint nodes = GNOMON_PAGE_WORDS[light.options.y - 1u].x;
+    vec3 far = abs(toward);
+    uint axis = mix(mix(2u, 1u, far.y >= far.z), 0u, far.x >= max(far.y, far.z));
+    uvec2 root = GNOMON_PAGE_WORDS[light.options.y + axis + mix(0u, 3u, (-toward)[axis] < 0.0)];
+    GpuView view = gnomon_views[root.y];
+    vec2 at = vec2(dot(view.sector_x, p), dot(view.sector_y, p)) / dot(view.sector_w, p) + 1.0;
+    uint node = root.x;
     uint word = 0x10000u;
     while (word > 0xFFFFu) { // tested before [drivers: loop-result]
-        at += at;
         vec2 high = step(vec2(1.0), at);
         at -= high;
-        word = GNOMON_PAGE_WORDS[nodes + 2u * (word >> 16) + uint(high.y)][uint(high.x)];
+        at += at;
+        uvec2 quarter = uvec2(high);
+        node += word >> 16;
+        word = GNOMON_PAGE_WORDS[node + quarter.y][quarter.x];
     }
     return light.views.x + word;
 }
@@ -431,12 +438,12 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     float faded = fadedShare(GNOMON_NUMBERS.screen.fade, length(p));
     float seen = 1.0;
     vec3 colour = vec3(1.0);
+    uvec2 range = light.views.xy;
 #ifdef GNOMON_PAGES
     if (GNOMON_PAGES) {
-        light.views.xy = uvec2(pageAt(light, r.p), 1u);
+        range = uvec2(pageAt(light, vec4(r.p, 1.0), f.toward), 1u);
     }
 #endif
-    uvec2 range = light.views.xy;
     bool is_later = false;
     bool more = light.views.w > 0u;
     do { // over the positions of the sun, so that the filter is compiled once

@@ -69,7 +69,7 @@ struct GpuLight {
     GN_VEC4 steps; // where it is seen from two positions: sun_steps.h
     // x: index into Plan::options, whose GpuConstants it uses. For filters id and depth-id y: the first vector of
     // pack::fillObjects() with its ids, z: how many objects there are, w: 1: pieces have ids. With partition virtual y:
-    // one past its place in pack::fillPageTable()
+    // its first entry in pack::fillPageTable()
     GN_UVEC4 options;
 };
 
