@@ -13,8 +13,6 @@ namespace {
 
 /// A node is two vectors, and no more than a word's upper half of them lie after another of one light.
 constexpr std::uint32_t kMostNodes = 0x7FFFU;
-/// Entries of a light before all nodes.
-constexpr std::uint32_t kFaces = 6;
 
 /// Which square of its light's root a page is, among 2^depth on a side.
 struct PagePlace {
@@ -122,7 +120,7 @@ void addLight(std::span<const View> views, std::uint32_t first_view, std::size_t
         const TableOfRoot table(out, views, view);
         const glm::uvec2 entry(table.first() - 1, first_view + view);
         if (view == last) { // a face without a root finds pages that do not show it
-            std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(first), kFaces, entry);
+            std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(first), kPageFaces, entry);
         }
         out[first + faceOf(sector)] = entry;
     }
@@ -145,13 +143,14 @@ void fillPageTable(const Plan& plan, std::vector<glm::uvec2>& out)
     if (std::ranges::none_of(plan.lights, isPaged)) {
         return;
     }
-    out.resize(kFaces * plan.lights.size(), glm::uvec2(0));
+    out.resize(kPageFaces * plan.lights.size(), glm::uvec2(0));
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
         const LightPlan& light = plan.lights[i];
         if (!isPaged(light)) {
             continue;
         }
-        addLight(std::span(plan.views).subspan(light.first_view, light.view_count), light.first_view, kFaces * i, out);
+        addLight(std::span(plan.views).subspan(light.first_view, light.view_count), light.first_view, kPageFaces * i,
+                 out);
     }
 }
 

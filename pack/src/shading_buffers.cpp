@@ -126,7 +126,7 @@ void fillLight(const Plan& plan, std::size_t index, SunShown shown, shared::GpuL
     out.steps = stepRule(light.steps);
     out.options.x = light.options;
     if (hasPages((*plan.options)[light.options])) {
-        out.options.y = 6 * static_cast<std::uint32_t>(index);
+        out.options.y = kPageFaces * static_cast<std::uint32_t>(index);
     }
     if (light.first_object_id != kNoIndex) {
         out.options.y = firstIdVector(plan, light);

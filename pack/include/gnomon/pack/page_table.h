@@ -8,10 +8,13 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace gnomon::pack {
 
+/// A light's entries in the table.
+inline constexpr std::uint32_t kPageFaces = 6;
 /// Fills in the table. First for each light of the plan six entries, for the faces of the cube around it: those of +x,
 /// +y and +z, then those of -x, -y and -z. A light with one root has it six times. An entry is the place of the root's
 /// node, less one, and the plan's view that serves all of the root; zeros: the light has no pages. Then the nodes. A
