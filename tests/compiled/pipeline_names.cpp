@@ -20,10 +20,10 @@ struct Constant {
 };
 
 constexpr Constant kMaskConstants[] = {
-    {"kernel", 3},       {"taps", 16},  {"automatic bias", 1}, {"flags", 0},    {"sampling", 0}, {"layers", 0},
-    {"holding", 0},      {"views", 0},  {"filter", 0},         {"normals", 1},  {"software", 0}, {"smooth", 0},
-    {"tints", 0},        {"rays", 0},   {"frames", 0},         {"coloured", 0}, {"tiles", 0},    {"takes away", 0},
-    {"paraboloid", 0},   {"ids", 0},    {"slices", 0},         {"paired", 0},   {"pixels", 1},   {"layered", 0},
+    {"kernel", 3},       {"taps", 16},   {"automatic bias", 1}, {"flags", 0},    {"sampling", 0}, {"layers", 0},
+    {"holding", 0},      {"views", 0},   {"filter", 0},         {"normals", 1},  {"software", 0}, {"smooth", 0},
+    {"tints", 0},        {"rays", 0},    {"frames", 0},         {"coloured", 0}, {"tiles", 0},    {"takes away", 0},
+    {"paraboloid", 0},   {"ids", 0},     {"slices", 0},         {"paired", 0},   {"pixels", 1},   {"layered", 0},
     {"orthographic", 0}, {"settles", 0}, {"pages", 0}}; // mask.frag, in its order
 constexpr Constant kCasterConstants[] = {{"holding", 0},     {"quantum", 0},  {"coloured", 0}, {"masked", 0},
                                          {"perspective", 0}, {"metric", 0},   {"ids", 0},      {"paraboloid", 0},

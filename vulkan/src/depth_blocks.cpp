@@ -37,7 +37,8 @@ DepthBlocks::Kind DepthBlocks::makeKind(VkDescriptorType source, std::span<const
 }
 
 DepthBlocks::DepthBlocks(Device& device, VkPipelineCache cache)
-    : device_(device), nearest_(makeSampler(device, VK_FILTER_NEAREST)), from_maps_(makeKind(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, spirv::depth_blocks_map_comp, cache)),
+    : device_(device), nearest_(makeSampler(device, VK_FILTER_NEAREST)),
+      from_maps_(makeKind(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, spirv::depth_blocks_map_comp, cache)),
       from_blocks_(makeKind(VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, spirv::depth_blocks_comp, cache))
 {
 }
