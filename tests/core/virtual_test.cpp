@@ -222,6 +222,7 @@ TEST(Virtual, IsNeverStale)
 TEST(Virtual, AllocatesNextToNothingOnceWarm)
 {
     Street street;
+    street.options.max_texels = 2048 * 2048;
     Planner planner(street.options);
     const auto lookOn = [&](int i) {
         street.frame.index = static_cast<std::uint64_t>(i);
