@@ -74,6 +74,20 @@ struct Street {
         requests = {{7, clip, frame.size_px, cells}};
         frame.requests = requests;
     }
+    /// The next frame of a walk: another view, perhaps other requests, and three boxes moved.
+    void walk(Random& random)
+    {
+        ++frame.index;
+        look(random.inBox({-20, 2, 10}, {20, 12, 40}), random.inBox({-20, 0, -20}, {20, 2, 0}));
+        if (random.below(2) == 0)
+            request(random.inBox({-20, 0, -20}, {20, 0, 20}), 3.0);
+        for (int k = 0; k < 3; ++k) {
+            const ObjectId box = boxes[random.below(200)];
+            const Aabb at = set.bounds(box);
+            const glm::vec3 step(random.inBox({-1, 0, -1}, {1, 0, 1}));
+            set.update(box, {at.min + step, at.max + step});
+        }
+    }
 };
 
 inline std::uint64_t drawnTexels(const Plan& plan)

@@ -227,18 +227,9 @@ TEST_P(VirtualLamps, IsNeverStale)
         Planner planner(moved.options);
         test::Draughtsman draughtsman;
         for (int i = 0; i < 30; ++i) {
-            moved.frame.index = static_cast<std::uint64_t>(i);
-            moved.look(random.inBox({-20, 2, 10}, {20, 12, 40}), random.inBox({-20, 0, -20}, {20, 2, 0}));
-            if (random.below(2) == 0)
-                moved.request(random.inBox({-20, 0, -20}, {20, 0, 20}), 3.0);
+            moved.walk(random);
             if (random.below(8) == 0)
                 moved.lights[0].position_ws += random.inBox({-1, -1, -1}, {1, 1, 1});
-            for (int k = 0; k < 3; ++k) {
-                const ObjectId box = moved.boxes[random.below(200)];
-                const Aabb at = moved.set.bounds(box);
-                const glm::vec3 step(random.inBox({-1, 0, -1}, {1, 0, 1}));
-                moved.set.update(box, {at.min + step, at.max + step});
-            }
             const Plan& plan = planner.plan(moved.frame);
             draughtsman.follow(plan, moved.set);
             draughtsman.check(plan, moved.set);

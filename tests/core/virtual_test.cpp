@@ -200,16 +200,7 @@ TEST(Virtual, IsNeverStale)
         Planner planner(street.options);
         test::Draughtsman draughtsman;
         for (int i = 0; i < 30; ++i) {
-            street.frame.index = static_cast<std::uint64_t>(i);
-            street.look(random.inBox({-20, 2, 10}, {20, 12, 40}), random.inBox({-20, 0, -20}, {20, 2, 0}));
-            if (random.below(2) == 0)
-                street.request(random.inBox({-20, 0, -20}, {20, 0, 20}), 3.0);
-            for (int k = 0; k < 3; ++k) {
-                const ObjectId box = street.boxes[random.below(200)];
-                const Aabb at = street.set.bounds(box);
-                const glm::vec3 step(random.inBox({-1, 0, -1}, {1, 0, 1}));
-                street.set.update(box, {at.min + step, at.max + step});
-            }
+            street.walk(random);
             const Plan& plan = planner.plan(street.frame);
             draughtsman.follow(plan, street.set);
             draughtsman.check(plan, street.set);

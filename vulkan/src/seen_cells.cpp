@@ -5,6 +5,7 @@
 #include "pipelines.h"
 #include "samplers.h"
 
+#include <gnomon/pack/page_table.h>
 #include <gnomon_spirv.h>
 
 #include <gnomon/shared/seen_cells.h>
@@ -35,7 +36,7 @@ glm::uvec2 cellsOf(VkExtent2D screen)
 
 bool hasPages(const Plan& plan, const LightPlan& light)
 {
-    return light.outcome.hasMap() && (*plan.options)[light.options].technique().partition == Partition::virtual_pages;
+    return light.outcome.hasMap() && pack::hasPages((*plan.options)[light.options]);
 }
 
 /// Are these of the plan's lights?
