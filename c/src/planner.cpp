@@ -50,6 +50,18 @@ const OptionRow& requireOption(const char* key)
     return *row;
 }
 
+OptionValue readValue(const OptionRow& row, std::string_view text)
+{
+    if (text.empty()) {
+        return row.get(ShadowOptions{});
+    }
+    OptionReading reading = readOption(row, text);
+    if (!reading.value) {
+        throw WrongCall{std::string(row.key) + ": " + quoted(text) + " is not " + reading.expected, ""};
+    }
+    return std::move(*reading.value);
+}
+
 /// Makes the planner anew where its options have changed.
 void renew(GnomonPlanner& own)
 {
@@ -109,13 +121,10 @@ GnomonStatus gnomonSetOption(GnomonPlanner* planner, uint32_t options, const cha
     return guarded("setting an option", [&] {
         GnomonPlanner& own = required(planner, "planner");
         const OptionRow& row = requireOption(key);
-        const OptionReading reading = readOption(row, &required(value, "value"));
-        if (!reading.value) {
-            throw WrongCall{std::string(row.key) + ": " + quoted(value) + " is not " + reading.expected, ""};
-        }
+        const OptionValue wanted = readValue(row, &required(value, "value"));
         requireIndex(options, std::min(own.options.size() + 1, kMostOptions), "options");
         ShadowOptions changed = options < own.options.size() ? own.options[options] : ShadowOptions{};
-        row.set(changed, *reading.value);
+        row.set(changed, wanted);
         if (options == own.options.size()) {
             own.options.emplace_back();
         }

@@ -36,11 +36,11 @@ void requireSize(std::size_t size, std::size_t first, std::size_t now, const cha
 
 /// Reads a struct of any version: members that an older one lacks have their defaults.
 template <class T, class Cpp>
-T readStruct(const void* from, const char* name)
+T readStruct(const void* from, const char* name, std::size_t first = kFirstSize<T>)
 {
     std::uint32_t size = 0;
     std::memcpy(&size, from, sizeof(size));
-    requireSize(size, kFirstSize<T>, sizeof(T), name);
+    requireSize(size, first, sizeof(T), name);
     T own = given(Cpp{});
     std::memcpy(&own, from, size);
     return own;

@@ -86,9 +86,10 @@ GNOMON_C_API const GnomonOption* gnomonOptionAt(uint32_t index) GNOMON_NOEXCEPT;
 GNOMON_C_API GnomonPlanner* gnomonMakePlanner(uint32_t header_interface) GNOMON_NOEXCEPT;
 /// Null does nothing.
 GNOMON_C_API void gnomonFreePlanner(GnomonPlanner* planner) GNOMON_NOEXCEPT;
-/// Sets an option, as `gnomon --set KEY=VALUE` does. `options`: the index of options that there are, or one past the
-/// last, which adds further ones (at most 256). Where a value differs from before, the next plan begins anew: it is
-/// made by another planner (GnomonPlan::planner), whose maps are all to be drawn.
+/// Sets an option, as `gnomon --set KEY=VALUE` does; an empty value stands for the default. `options`: the index of
+/// options that there are, or one past the last, which adds further ones (at most 256). Where a value differs from
+/// before, the next plan begins anew: it is made by another planner (GnomonPlan::planner), whose maps are all to be
+/// drawn.
 GNOMON_C_API GnomonStatus gnomonSetOption(GnomonPlanner* planner, uint32_t options, const char* key,
                                           const char* value) GNOMON_NOEXCEPT;
 /// The value of an option, as gnomonSetOption() takes it; null where it fails. It holds until the thread's next call of

@@ -165,7 +165,7 @@ typedef struct GnomonOption {
     const char* doc;           // one line
     const char* form;          // how its value is written: "N"
     const char* unit;          // empty: none
-    const char* default_value; // as gnomonSetOption() takes it
+    const char* default_value; // as gnomonSetOption() takes it; may be empty
     const char* choices;       // the names that it takes, with spaces between; empty: numbers, or 0 and 1
     double min;                // least value of each number
     double max;                // largest value of each number
