@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static int fail(void)
 {
@@ -27,9 +28,10 @@ int main(void)
 {
     const GnomonBounds ground = {{-20.0F, -0.1F, -20.0F}, {20.0F, 0.0F, 20.0F}};
     const GnomonBounds box = {{-1.0F, 0.0F, -1.0F}, {1.0F, 2.0F, 1.0F}};
-    // The eye is 10 m south of the origin and 2 m up, and looks north; 90 degrees wide, from 0.1 m on without an end.
+    // From (0, 2, 10) along -z, 90 degrees wide; depth is 1 at 0.1 m and 0 without an end.
     const double clip_from_world[16] = {1.0, 0.0, 0.0, 0.0,  0.0, -1.0, 0.0, 0.0,
                                         0.0, 0.0, 0.0, -1.0, 0.0, 2.0,  0.1, 10.0};
+    const double eye_ws[3] = {0.0, 2.0, 10.0};
     uint64_t drawn[64] = {0}; // by map: the contents that it has
 
     // docs/c.md begin
@@ -45,15 +47,12 @@ int main(void)
 
     GnomonLight sun;
     GnomonFrame frame;
-    gnomonInitLight(&sun, sizeof(sun)); // shines straight down
+    gnomonInitLight(&sun, sizeof(sun)); // the defaults
     gnomonInitFrame(&frame, sizeof(frame));
     sun.direction_ws[0] = 0.6;
     sun.direction_ws[1] = -0.8;
-    frame.camera.eye_ws[1] = 2.0;
-    frame.camera.eye_ws[2] = 10.0;
-    for (int i = 0; i < 16; ++i) {
-        frame.camera.clip_from_world[i] = clip_from_world[i]; // in columns; reversed depth: 1 near, 0 far
-    }
+    memcpy(frame.camera.eye_ws, eye_ws, sizeof(eye_ws));
+    memcpy(frame.camera.clip_from_world, clip_from_world, sizeof(clip_from_world)); // in columns
     frame.objects = objects;
     frame.lights = &sun;
     frame.light_count = 1;
