@@ -80,7 +80,8 @@ static void fillLights(GnomonLight lights[kLights])
 static void fillFrame(GnomonFrame* frame, const GnomonObjects* objects, const GnomonLight* lights)
 {
     // At (0, 4, 12), looking along -z; 90 degrees wide, reversed depth from 0.1 m on.
-    const double clip_from_world[16] = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 4.0, 0.1, 12.0};
+    const double clip_from_world[16] = {1.0, 0.0, 0.0, 0.0,  0.0, -1.0, 0.0, 0.0,
+                                        0.0, 0.0, 0.0, -1.0, 0.0, 4.0,  0.1, 12.0};
     DONE(gnomonInitFrame(frame, sizeof(*frame)));
     memcpy(frame->camera.clip_from_world, clip_from_world, sizeof(clip_from_world));
     frame->camera.eye_ws[1] = 4.0;
@@ -144,9 +145,11 @@ static void checkPasses(const GnomonPlanner* planner, const GnomonPlan* plan)
     if (plan->pass_count == 3) {
         EXPECT(gnomonPassAt(planner, 0)->kind == GNOMON_PASS_MAPS && gnomonPassAt(planner, 0)->options == 0);
         EXPECT(gnomonPassAt(planner, 1)->kind == GNOMON_PASS_MAPS && gnomonPassAt(planner, 1)->options == 1);
-        EXPECT(gnomonPassAt(planner, 2)->kind == GNOMON_PASS_MASK && strcmp(gnomonPassAt(planner, 2)->name, "mask") == 0);
+        EXPECT(gnomonPassAt(planner, 2)->kind == GNOMON_PASS_MASK &&
+               strcmp(gnomonPassAt(planner, 2)->name, "mask") == 0);
     }
-    EXPECT(strcmp(gnomonPagesAt(planner, 0)->filter, "pcf") == 0 && strcmp(gnomonPagesAt(planner, 0)->format, "d32f") == 0);
+    EXPECT(strcmp(gnomonPagesAt(planner, 0)->filter, "pcf") == 0 &&
+           strcmp(gnomonPagesAt(planner, 0)->format, "d32f") == 0);
 }
 
 // Nothing moves, then a box does: its maps alone are drawn again.

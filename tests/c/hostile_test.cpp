@@ -19,6 +19,21 @@ namespace {
 
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
+/// A frame under one sun, seen from (0, 2, 10) along -z.
+void describe(GnomonFrame& frame, GnomonLight& sun, const GnomonObjects* objects)
+{
+    constexpr std::array<double, 16> kClipFromWorld{1.0, 0.0, 0.0, 0.0,  0.0, -1.0, 0.0, 0.0,
+                                                    0.0, 0.0, 0.0, -1.0, 0.0, 2.0,  0.1, 10.0};
+    gnomonInitLight(&sun, sizeof(sun));
+    gnomonInitFrame(&frame, sizeof(frame));
+    std::memcpy(frame.camera.clip_from_world, kClipFromWorld.data(), sizeof(kClipFromWorld));
+    frame.camera.eye_ws[1] = 2.0;
+    frame.camera.eye_ws[2] = 10.0;
+    frame.objects = objects;
+    frame.lights = &sun;
+    frame.light_count = 1;
+}
+
 /// A scene of two boxes under a sun.
 struct Host {
     GnomonObjects* objects = gnomonMakeObjects(GNOMON_INTERFACE);
@@ -35,16 +50,7 @@ struct Host {
         EXPECT_EQ(gnomonAddObject(objects, &level, nullptr, &ground), GNOMON_OK);
         EXPECT_EQ(gnomonAddObject(objects, &cube, nullptr, &box), GNOMON_OK);
         EXPECT_EQ(gnomonSetOption(planner, 0, "map-size", "64"), GNOMON_OK);
-        gnomonInitLight(&sun, sizeof(sun));
-        gnomonInitFrame(&frame, sizeof(frame));
-        constexpr std::array<double, 16> kClipFromWorld{1.0, 0.0, 0.0, 0.0,  0.0, -1.0, 0.0, 0.0,
-                                                        0.0, 0.0, 0.0, -1.0, 0.0, 2.0,  0.1, 10.0};
-        std::memcpy(frame.camera.clip_from_world, kClipFromWorld.data(), sizeof(kClipFromWorld));
-        frame.camera.eye_ws[1] = 2.0;
-        frame.camera.eye_ws[2] = 10.0;
-        frame.objects = objects;
-        frame.lights = &sun;
-        frame.light_count = 1;
+        describe(frame, sun, objects);
     }
     Host(const Host&) = delete;
     Host& operator=(const Host&) = delete;
@@ -361,16 +367,7 @@ TEST(CHostile, MemoryMayRunOutAnywhere)
         gnomonGetOption(planner, 0, "cascades.ends");
         GnomonLight sun;
         GnomonFrame frame;
-        gnomonInitLight(&sun, sizeof(sun));
-        gnomonInitFrame(&frame, sizeof(frame));
-        constexpr std::array<double, 16> kClipFromWorld{1.0, 0.0, 0.0, 0.0,  0.0, -1.0, 0.0, 0.0,
-                                                        0.0, 0.0, 0.0, -1.0, 0.0, 2.0,  0.1, 10.0};
-        std::memcpy(frame.camera.clip_from_world, kClipFromWorld.data(), sizeof(kClipFromWorld));
-        frame.camera.eye_ws[1] = 2.0;
-        frame.camera.eye_ws[2] = 10.0;
-        frame.objects = objects;
-        frame.lights = &sun;
-        frame.light_count = 1;
+        describe(frame, sun, objects);
         gnomonPlan(planner, &frame);
         gnomonPlanJson(planner);
         std::size_t bytes = 0;

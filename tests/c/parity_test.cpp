@@ -4,9 +4,7 @@
 #include "same_plan.h"
 #include "structs.h"
 
-#include <gnomon/pack/caster_rows.h>
 #include <gnomon/pack/page_table.h>
-#include <gnomon/pack/shading_buffers.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -119,8 +117,8 @@ public:
         const Plan& wanted = planner_.plan(frame_);
         expectSamePlan(c_planner_.get(), *plan, wanted);
         EXPECT_EQ(wanted.made_for.lights, lights_);
-        expectSameBuffers(wanted);
-        expectSameRows(wanted);
+        expectSameBuffers(c_planner_.get(), wanted);
+        expectSameRows(c_planner_.get(), wanted);
         noteKinds(wanted);
         views_ += wanted.views.size();
     }
@@ -180,7 +178,9 @@ private:
         }
         note(!plan.object_ids.empty(), "ids");
         note(!plan.moved_ws.empty(), "moved");
-        note(!filled<glm::uvec2>(GNOMON_BUFFER_PAGES).empty(), "pages");
+        std::vector<glm::uvec2> pages;
+        pack::fillPageTable(plan, pages);
+        note(!pages.empty(), "pages");
     }
 
     double random(double low, double high) { return std::uniform_real_distribution(low, high)(numbers_); }
@@ -314,84 +314,6 @@ private:
         ASSERT_EQ(taken.requests.size(), 1U);
         ASSERT_EQ(taken.requests[0].cells.size(), cells_.size());
         EXPECT_EQ(std::memcmp(taken.requests[0].cells.data(), cells_.data(), cells_.size() * sizeof(SeenCell)), 0);
-    }
-
-    /// The bytes of a buffer through C.
-    template <class T>
-    std::vector<T> filled(std::uint32_t buffer, std::uint32_t options = 0, const GnomonPrecision* precision = nullptr)
-    {
-        std::size_t bytes = 0;
-        EXPECT_EQ(gnomonBufferBytes(c_planner_.get(), buffer, &bytes), GNOMON_OK);
-        EXPECT_EQ(bytes % sizeof(T), 0U);
-        std::vector<T> out(bytes / sizeof(T));
-        EXPECT_EQ(gnomonFillBuffer(c_planner_.get(), buffer, options, precision, out.data(), bytes), GNOMON_OK)
-            << gnomonLastError()->message;
-        return out;
-    }
-
-    template <class T>
-    static void expectSameBytes(const std::vector<T>& shown, const std::vector<T>& wanted, const char* buffer)
-    {
-        ASSERT_EQ(shown.size(), wanted.size()) << buffer;
-        EXPECT_TRUE(wanted.empty() || std::memcmp(shown.data(), wanted.data(), wanted.size() * sizeof(T)) == 0)
-            << buffer;
-    }
-
-    void expectSameBuffers(const Plan& plan)
-    {
-        std::vector<pack::MapImage> images;
-        for (std::size_t i = 0; i < plan.pages.size(); ++i) {
-            const glm::uvec2 size(std::max(plan.pages[i].width, 1U), std::max(plan.pages[i].height, 1U));
-            images.push_back(
-                {size, plan.pages[i].width == 0 ? 1 : pack::mipLevels((*plan.options)[i], size.x, size.y)});
-        }
-        GnomonPrecision c_precision;
-        gnomonInitPrecision(&c_precision, sizeof(c_precision));
-        c_precision.sub_pixel_bits = 8;
-        c_precision.normal_error_rad = 0.01F;
-        const pack::DrawPrecision precision{.sub_pixel_bits = 8, .normal_error_rad = 0.01F};
-        for (std::uint32_t i = 0; i < plan.pages.size(); ++i) {
-            std::vector<shared::GpuConstants> constants(1);
-            pack::fillConstants(plan, i, frame_.size_px, images[i], precision, constants[0]);
-            expectSameBytes(filled<shared::GpuConstants>(GNOMON_BUFFER_CONSTANTS, i, &c_precision), constants,
-                            "constants");
-        }
-        std::vector<shared::GpuLight> lights(plan.lights.size());
-        pack::fillLights(plan, lights);
-        expectSameBytes(filled<shared::GpuLight>(GNOMON_BUFFER_LIGHTS), lights, "lights");
-        std::vector<shared::GpuView> views(std::max<std::size_t>(plan.views.size(), shared::kFewViews));
-        pack::fillViews(plan, images, views);
-        expectSameBytes(filled<shared::GpuView>(GNOMON_BUFFER_VIEWS), views, "views");
-        std::vector<glm::vec4> objects(pack::objectVectorCount(plan));
-        pack::fillObjects(plan, objects);
-        expectSameBytes(filled<glm::vec4>(GNOMON_BUFFER_OBJECTS), objects, "objects");
-        std::vector<glm::uvec2> pages;
-        pack::fillPageTable(plan, pages);
-        expectSameBytes(filled<glm::uvec2>(GNOMON_BUFFER_PAGES), pages, "pages");
-    }
-
-    void expectSameRows(const Plan& plan)
-    {
-        std::array<float, 24> transforms{};
-        for (float& number : transforms) {
-            number = static_cast<float>(random(-2.0, 2.0));
-        }
-        for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
-            const std::uint32_t rows = pack::casterRowCount(plan.views[i].projection.orthographic);
-            std::vector<float> shown(std::size_t{rows} * 8);
-            ASSERT_EQ(
-                gnomonWriteCasterRows(c_planner_.get(), i, transforms.data(), 2, 0.01, shown.data(), shown.size()),
-                GNOMON_OK);
-            std::vector<glm::vec4> wanted(std::size_t{rows} * 2);
-            const pack::CasterRows writer(plan.views[i]);
-            glm::vec4* out = wanted.data();
-            for (const float* from : {transforms.data(), transforms.data() + 12}) {
-                out =
-                    writer.write({glm::make_vec4(from), glm::make_vec4(from + 4), glm::make_vec4(from + 8)}, out, 0.01);
-            }
-            EXPECT_EQ(std::memcmp(shown.data(), wanted.data(), shown.size() * sizeof(float)), 0)
-                << "rows of view " << i;
-        }
     }
 
     std::mt19937 numbers_{7};

@@ -11,6 +11,11 @@ namespace gnomon::test {
 /// contents differ in their planner's share, which is how they are known apart.
 void expectSamePlan(const GnomonPlanner* planner, const GnomonPlan& shown, const Plan& wanted);
 
+/// Compares all buffers that C fills in with those of pack.
+void expectSameBuffers(GnomonPlanner* planner, const Plan& plan);
+/// Compares the rows of casters of two objects in every view.
+void expectSameRows(const GnomonPlanner* planner, const Plan& plan);
+
 /// The C struct of a C++ light, member by member.
 [[nodiscard]] GnomonLight lightOf(const Light& light);
 /// The C struct of a frame, member by member, without what it points to.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The data of the C interface: gnomon.h, which includes this and says what holds for all of it. All members are 4 or 8
-// bytes wide, or arrays of such, or structs of such, and none has a gap before it.
+// The data of the C interface: gnomon.h includes this and says what holds for all of it. No struct has gaps.
 #ifndef GNOMON_GNOMON_DATA_H
 #define GNOMON_GNOMON_DATA_H
 
