@@ -43,7 +43,7 @@ auto guardedPointer(const char* tried, const Body& body) noexcept -> decltype(bo
     }
 }
 
-/// What a pointer leads to. Throws WrongCall for null.
+/// The object that a pointer leads to. Throws WrongCall for null.
 template <class T>
 T& required(T* pointer, const char* name)
 {

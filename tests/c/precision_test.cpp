@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the floats of a view cost, as docs/c.md says: points far from the world's origin are taken to a map as a shader
-// would, in single precision.
+// The cost of the floats of a view, as docs/c.md has it: points far from the world's origin are taken to a map as a
+// shader would, in single precision.
 #include <gnomon/gnomon.h>
 
 #include <glm/gtc/matrix_transform.hpp>

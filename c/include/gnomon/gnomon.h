@@ -122,7 +122,7 @@ GNOMON_C_API const GnomonPass* gnomonPassAt(const GnomonPlanner* planner, uint32
 /// function, too.
 GNOMON_C_API const char* gnomonPlanJson(GnomonPlanner* planner) GNOMON_NOEXCEPT;
 
-// ---- What a backend needs besides
+// ---- Further needs of a backend
 
 /// Writes GnomonView::caster_rows rows of four floats for each object, one object after the other, which take its own
 /// points to the map: rows of x, y and depth, or of x, y, z, w and depth. They are composed in double precision.

@@ -188,7 +188,7 @@ typedef enum GnomonSunPosition { GNOMON_ONLY = 0, GNOMON_EARLIER = 1, GNOMON_LAT
 /// Which half of a texel's bits holds a map (TexelPart).
 typedef enum GnomonTexelPart { GNOMON_WHOLE = 0, GNOMON_FIRST = 1, GNOMON_SECOND = 2 } GnomonTexelPart;
 
-/// What one frame needs to be drawn, and the sizes of its lists.
+/// The drawing that one frame needs, and the sizes of its lists.
 typedef struct GnomonPlan {
     uint64_t frame;             // GnomonFrame::index
     uint64_t number;            // of this plan among its planner's, from 1 on
@@ -296,8 +296,8 @@ typedef struct GnomonView {
     uint32_t tile_height;    // texels
     uint32_t tile_part;      // GnomonTexelPart
 
-    // What the map holds, and what is to be drawn (ViewContents). Draw all of the tile where the contents that were
-    // noted for map_index are not `presumes`, else `dirty` if `redraw`; then note `makes`, unless it is 0.
+    // The map's contents, and the drawing that it needs (ViewContents). Draw all of the tile where the contents that
+    // were noted for map_index are not `presumes`, else `dirty` if `redraw`; then note `makes`, unless it is 0.
     uint64_t presumes;            // the contents that `dirty` goes on from
     uint64_t makes;               // the contents afterwards; 0: leave the map
     uint64_t kept_presumes;       // as presumes, of the kept layer
@@ -360,7 +360,7 @@ typedef struct GnomonPages {
     const char* format;      // the format of a texel: "d32f"
 } GnomonPages;
 
-// ---- What a backend needs besides (gnomon/pack)
+// ---- Further needs of a backend (gnomon/pack)
 
 /// The kind of a pass (pack::FramePassKind).
 typedef enum GnomonPassKind {
