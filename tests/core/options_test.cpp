@@ -238,8 +238,8 @@ TEST(OptionTable, SaysWhatItTakesInstead)
     const auto expected = [](std::string_view key, std::string_view text) {
         return readOption(*findOption(key), text).expected;
     };
-    EXPECT_EQ(expected("pcf.taps", "65"), "in the range 4 to 64");
-    EXPECT_EQ(expected("pcf.taps", "x"), "a whole number in the range 4 to 64");
+    EXPECT_EQ(expected("pcf.taps", "65"), "in the range 4 to 64 taps");
+    EXPECT_EQ(expected("pcf.taps", "x"), "a whole number in the range 4 to 64 taps");
     EXPECT_EQ(expected("map-size", "x"), "auto or a whole number in the range 16 to 16384 texels");
     EXPECT_EQ(expected("bias.constant", "x"), "a finite number in the range -1000000 to 1000000 m");
     EXPECT_EQ(expected("level-depth", "2"), "0 or 1");
