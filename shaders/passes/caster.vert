@@ -60,7 +60,8 @@ layout(push_constant) uniform Material
     float cutoff;
     int first_view; // the first of the views that are drawn in one pass
 #ifdef CLIPPED
-    layout(offset = 64) vec4 clip_planes[2];
+    vec4 tint; // caster_tint.frag's
+    vec4 clip_planes[2];
 #endif
 };
 #ifdef CLIPPED
