@@ -20,17 +20,13 @@ FORMATS = {"essl": ("r32f", "rgba16f", "rgba32f"), "wgsl": ("r32f", "rg32f", "rg
 STAGES = {".vert": "vertex", ".frag": "fragment", ".comp": "compute"}
 LAYER_LOCATION = 30   # of gl_Layer while a module goes through a translator that knows no such output of a vertex shader
 LARGEST = {"kRadius": 31} # kMostBlurRadius of filter_pass.h; WGSL has no arrays in functions that a constant sizes
-LAYERED = "a vertex shader chooses the layer to draw to, which {} has not: draw the views in turn with {}"
+LAYERED = "no vertex shader chooses a layer there; draw the views in turn with `{}`"
 # Passes that a device may draw with a module each in software alone (mask_numbers.glsl). The kit leaves them out.
 FOR_SOFTWARE = "GNOMON_ONE_VIEW"
 # Whether a software rasteriser runs it. The texts are for GPUs.
 FIXED = {"kInSoftware": False}
 CLEAN = ("--fold-spec-const-op-composite", "--simplify-instructions", "--eliminate-dead-branches", "--eliminate-dead-functions",
          "--eliminate-dead-code-aggressive", "--eliminate-dead-variables", "--eliminate-dead-const", "--remove-unused-interface-variables")
-
-
-class Missing(Exception):
-    """This dialect cannot have the module, and why."""
 
 
 def run(*command: str) -> str:
@@ -106,13 +102,18 @@ def renumber(module: Module, dialect: str, stage: str, inputs: list[dict]) -> No
             module.decorate(one["id"], spirv.BINDING, number)
 
 
+def missing(name: str, module: Module) -> dict[str, str]:
+    """The dialects that cannot have a module, and why."""
+    if not module.writes_layer():
+        return {}
+    return {one: LAYERED.format(name.replace("_layered", "").replace("_placed", "")) for one in ("essl", "wgsl")}
+
+
 def write(name: str, data: bytes, dialect: str, inputs: list[dict], folder: Path, image_format: str | None) -> str:
-    """The text of a module, whose SPIR-V `data` is. Throws Missing."""
+    """The text of a module, whose SPIR-V `data` is."""
     stage = STAGES[Path(name).suffix]
     module = Module(data)
     layered = module.layer_to_location(LAYER_LOCATION) if dialect == "hlsl" else False
-    if dialect in ("essl", "wgsl") and module.writes_layer():
-        raise Missing(LAYERED.format(dialect.upper(), name.replace("_layered", "").replace("_placed", "")))
     if image_format:
         module.set_image_format(image_format)
     push = PUSH[dialect]

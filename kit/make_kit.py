@@ -81,23 +81,19 @@ def make_module(entry: tuple, wanted: list[str], out: Path, scratch: Path) -> di
     base = scratch / f"{name}.spv"
     module = dialects.readable(source, defines, INCLUDES, base)
     described = describe(name, source, defines, module)
-    described["files"], described["missing"], described["bindings"] = {}, {}, {}
+    described |= {"files": {}, "bindings": {}, "missing": dialects.missing(name, module)}
     any_format = any(one.get("format") == "any" for one in described["inputs"])
-    for dialect in wanted:
-        ending = dialects.ENDINGS[dialect]
-        formats = dialects.FORMATS.get(dialect, (None,)) if any_format else (None,)
-        try:
-            for form in formats:
-                file = f"{dialect}/{name}.{form}.{ending}" if form else f"{dialect}/{name}.{ending}"
-                if dialect == "spirv":
-                    shutil.copyfile(made, out / file)
-                else:
-                    text = dialects.write(name, base.read_bytes(), dialect, described["inputs"], scratch, form)
-                    (out / file).write_text(text, encoding="utf-8", newline="\n")
-                described["files"].setdefault(dialect, {})[form or "any"] = file
-        except dialects.Missing as reason:
-            described["missing"][dialect] = str(reason)
-        if dialect != "spirv" and dialect in described["files"]:
+    for dialect in [one for one in wanted if one not in described["missing"]]:
+        described["files"][dialect] = {}
+        for form in dialects.FORMATS.get(dialect, (None,)) if any_format else (None,):
+            file = f"{dialect}/{name}.{form + '.' if form else ''}{dialects.ENDINGS[dialect]}"
+            described["files"][dialect][form or "any"] = file
+            if dialect == "spirv":
+                shutil.copyfile(made, out / file)
+            else:
+                text = dialects.write(name, base.read_bytes(), dialect, described["inputs"], scratch, form)
+                (out / file).write_text(text, encoding="utf-8", newline="\n")
+        if dialect != "spirv":
             described["bindings"][dialect] = dialects.bindings(dialect, described["stage"], described["inputs"])
     for one in described["inputs"]:
         del one["id"]

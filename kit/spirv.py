@@ -42,8 +42,8 @@ def words_of(text: str) -> list[int]:
 
 class Module:
     def __init__(self, data: bytes):
-        words = struct.unpack(f"<{len(data) // 4}I", data)
-        if len(data) % 4 or words[0] != MAGIC:
+        words = struct.unpack(f"<{len(data) // 4}I", data[:len(data) // 4 * 4])
+        if len(data) % 4 or len(words) < 5 or words[0] != MAGIC:
             raise ValueError("not little-endian SPIR-V")
         self.head = list(words[:5])
         self.code: list[Instruction] = []
@@ -80,6 +80,9 @@ class Module:
 
     def decoration(self, target: int, decoration: int) -> int | None:
         return next((one.words[2] for one in self.all(DECORATE) if one.words[:2] == [target, decoration]), None)
+
+    def is_decorated(self, target: int, decoration: int) -> bool:
+        return any(one.words[:2] == [target, decoration] for one in self.all(DECORATE))
 
     def decorate(self, target: int, decoration: int, value: int) -> None:
         """Replaces the decoration's value, or adds it."""
