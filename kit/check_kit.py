@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import dialects
+import frame
 import gl
 import npm
 
@@ -36,6 +37,7 @@ class Absent(Exception):
 
 class File(NamedTuple):
     module: str
+    form: str  # of dialects.forms(); else "any"
     stage: str
     path: Path
 
@@ -89,30 +91,25 @@ def ask_mesa(files: list[File], kit: dict, build: Path) -> Refusals:
         raise Absent(str(error)) from error
     refused, shaders = {}, {}
     for file in files:
-        shader, wrong = driver.compile(file.stage, file.path.read_text(encoding="utf-8"))
-        shaders.setdefault(file.module, shader)
+        shaders[file.module, file.form], wrong = driver.compile(file.stage, file.path.read_text(encoding="utf-8"))
         if wrong:
             refused[file.module] = wrong
     # A program of OpenGL ES has a fragment shader, if it is an empty one.
-    nothing = driver.compile("fragment", "#version 310 es\nvoid main() {}")[0] if dialect == "essl" else 0
-    for program_of in programs(kit):
-        if all(name in shaders and name not in refused for name in program_of):
-            with_nothing = [nothing] if nothing and program_of[0].endswith(".vert") and len(program_of) == 1 else []
-            wrong = driver.link([shaders[name] for name in program_of] + with_nothing)
+    nothing = [driver.compile("fragment", "#version 310 es\nvoid main() {}")[0]] if dialect == "essl" else []
+    names = {one.module for one in files} - refused.keys()
+    for program_of in frame.programs(kit["frame"]):
+        if names.issuperset(program_of):
+            empty = nothing if len(program_of) == 1 and program_of[0].endswith(".vert") else []
+            wrong = driver.link([shaders[key] for key in joined(program_of, kit, shaders)] + empty)
             if wrong:
                 refused[program_of[-1]] = f"with {program_of[0]}: {wrong}"
     return refused
 
 
-def programs(kit: dict) -> list[tuple[str, ...]]:
-    found = {}
-    for kind in kit["frame"]:
-        for step in kind["steps"]:
-            for name in step.get("compute", []):
-                found[(name,)] = None
-            for vertex in step.get("vertex", []):
-                found |= {(vertex, fragment): None for fragment in step["fragment"]} or {(vertex,): None}
-    return list(found)
+def joined(program_of: tuple[str, ...], kit: dict, there) -> list[tuple[str, str]]:
+    """The files of a program, by module and form: the vertex shader that a fragment shader by samples needs."""
+    by_sample = any(given.get("per_sample") for one in kit["modules"] if one["name"] == program_of[-1] for given in one.get("stage_inputs", []))
+    return [next((name, form) for form in ("sample" if by_sample else "any", "any", "rgba16f") if (name, form) in there) for name in program_of]
 
 
 def ask_dxc(files: list[File], kit: dict, build: Path) -> Refusals:
@@ -126,16 +123,31 @@ def ask_dxc(files: list[File], kit: dict, build: Path) -> Refusals:
                           env={**os.environ, "WINEPREFIX": str(folder / "wine"), "WINEDEBUG": "-all"})
     if done.returncode != 0:
         raise RuntimeError(f"dxc.exe ended with status {done.returncode}: {done.stdout.strip()}")
-    return by_lines(done.stdout, files)
+    return by_lines(done.stdout, files) | unlinked(done.stdout, files, kit)
+
+
+def unlinked(text: str, files: list[File], kit: dict) -> Refusals:
+    """Direct3D joins stages by registers: what a pixel shader takes has to be in the same one that the vertex shader wrote."""
+    signatures: dict[tuple[str, str], dict[str, set[str]]] = {(file.module, file.form): {"i": set(), "o": set()} for file in files}
+    keys = {str(file.path): (file.module, file.form) for file in files}
+    for path, kind, element in re.findall(r"^(.*)@([io]) (.*)$", text, re.MULTILINE):
+        signatures[keys[path]][kind].add(element.rstrip())
+    refused = {}
+    for pair in [one for one in frame.programs(kit["frame"]) if len(one) == 2]:
+        vertex, fragment = (signatures[key] for key in joined(pair, kit, signatures))
+        if lost := fragment["i"] - vertex["o"]:
+            refused[pair[1]] = f"{pair[0]} does not hand on {', '.join(sorted(lost))}"
+    return refused
 
 
 def ask_dawn(files: list[File], kit: dict, build: Path) -> Refusals:
+    """Each module, and each pipeline that the frame makes of them."""
     node = program("node")
-    done = subprocess.run([node, "check_wgsl.mjs", *(str(file.path) for file in files)], cwd=npm_folder(build), capture_output=True, text=True,
-                          check=False)
+    told = {"kit": kit, "folder": str(files[0].path.parent.parent), "programs": frame.programs(kit["frame"])}
+    done = subprocess.run([node, "check_wgsl.mjs"], input=json.dumps(told), cwd=npm_folder(build), capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise RuntimeError(f"check_wgsl.mjs: {done.stderr.strip()}")
-    return by_lines(done.stdout, files)
+    return dict(line.split(": ", 1) for line in done.stdout.splitlines() if not line.startswith(" "))
 
 
 def npm_folder(build: Path) -> Path:
@@ -156,7 +168,8 @@ COMPILERS = {"spirv-val": Compiler("V", ("spirv",), ask_spirv_val), "glslang": C
 
 
 def files_of(kit: dict, folder: Path, dialect: str) -> list[File]:
-    return [File(one["name"], one["stage"], (folder / path).resolve()) for one in kit["modules"] for path in one["files"].get(dialect, {}).values()]
+    return [File(one["name"], form, one["stage"], (folder / path).resolve())
+            for one in kit["modules"] for form, path in one["files"].get(dialect, {}).items()]
 
 
 def ask_all(kit: dict, folder: Path, build: Path, asked: list[str]) -> tuple[dict[str, dict[str, str]], set[str], list[str]]:

@@ -17,6 +17,9 @@ DIALECTS = ("spirv", *TEXT)
 ENDINGS = {"spirv": "spv", "glsl": "glsl", "essl": "essl", "hlsl": "hlsl", "msl": "metal", "wgsl": "wgsl"}
 # Formats of the maps that compute passes write, where a dialect has to be told: those that every device of it can store to.
 FORMATS = {"essl": ("r32f", "rgba16f", "rgba32f"), "wgsl": ("r32f", "rg32f", "rgba16f", "rgba32f")}
+# Dialects whose drivers refuse an input of a fragment shader that is read at each sample, where the vertex shader's output does
+# not say so too, or lies in another register: these have the vertex shaders of casters twice.
+SAYS_SAMPLE = ("glsl", "essl", "hlsl", "wgsl")
 STAGES = {".vert": "vertex", ".frag": "fragment", ".comp": "compute"}
 LAYER_LOCATION = 30   # of gl_Layer while a module goes through a translator that knows no such output of a vertex shader
 LARGEST = {"kRadius": 31} # kMostBlurRadius of filter_pass.h; WGSL has no arrays in functions that a constant sizes
@@ -109,26 +112,35 @@ def missing(name: str, module: Module) -> dict[str, str]:
     return {one: LAYERED.format(name.replace("_layered", "").replace("_placed", "")) for one in ("essl", "wgsl")}
 
 
-def write(name: str, data: bytes, dialect: str, inputs: list[dict], folder: Path, image_format: str | None) -> str:
-    """The text of a module, whose SPIR-V `data` is."""
+def forms(name: str, dialect: str, inputs: list[dict]) -> tuple[str | None, ...]:
+    """The files of a module differ by these: formats of what it stores to, or outputs at each sample. None: there is one file."""
+    if dialect in FORMATS and any(one.get("format") == "any" for one in inputs):
+        return FORMATS[dialect]
+    return (None, "sample") if dialect in SAYS_SAMPLE and name.startswith("caster") and name.endswith(".vert") else (None,)
+
+
+def write(name: str, module: Module, dialect: str, inputs: list[dict], given: list[dict], folder: Path, form: str | None) -> str:
+    """The text of a module, which this changes. `given`: what the vertex shaders hand on that it is drawn with, by that form."""
     stage = STAGES[Path(name).suffix]
-    module = Module(data)
     layered = module.layer_to_location(LAYER_LOCATION) if dialect == "hlsl" else False
-    if image_format:
-        module.set_image_format(image_format)
+    if form == "sample":
+        module.sample_outputs()
+    elif form:
+        module.set_image_format(form)
     push = PUSH[dialect]
     if isinstance(push, tuple):
         module.push_to_uniform("Push", *push)
     else:
-        module.drop_sample() # drivers refuse it where the vertex shader's output does not say it too
         # Two stages of a program have blocks of their own, which must have other names.
         module.push_to_uniform(f"Push_{stage}", 0, push[stage] if isinstance(push, dict) else push)
         renumber(module, dialect, stage, inputs)
     if dialect not in ("glsl", "essl"):
         module.split_samplers(sampler_binding if dialect == "wgsl" else lambda binding: binding)
+    if dialect == "hlsl" and stage == "fragment":
+        module.add_inputs(given) # Direct3D counts registers, so both stages need all of them
     if dialect == "wgsl":
         for_wgsl.prepare(module, LARGEST)
-    path = folder / f"{name}.{dialect}{image_format or ''}.spv"
+    path = folder / f"{name}.{dialect}{form or ''}.spv"
     path.write_bytes(module.data())
     if dialect == "wgsl":
         return str(path) # to_wgsl.mjs translates all of them in one process
@@ -141,7 +153,7 @@ def write(name: str, data: bytes, dialect: str, inputs: list[dict], folder: Path
 def extensions(module: Module, dialect: str) -> tuple[str, ...]:
     """Those that the translator forgets to ask for."""
     wanted = {"glsl": {spirv.VIEWPORT_INDEX_LAYER: "GL_ARB_shader_viewport_layer_array"},
-              "essl": {spirv.CLIP_DISTANCE: "GL_EXT_clip_cull_distance"}}
+              "essl": {spirv.CLIP_DISTANCE: "GL_EXT_clip_cull_distance", spirv.SAMPLE_RATE: "GL_OES_shader_multisample_interpolation"}}
     found = {one.words[0] for one in module.all(spirv.CAPABILITY)} & wanted.get(dialect, {}).keys()
     return tuple(word for one in sorted(found) for word in ("--extension", wanted[dialect][one]))
 

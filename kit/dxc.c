@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // usage: dxc.exe DXCOMPILER.DLL { PROFILE FILE }... : compiles each HLSL file with Direct3D's compiler, and prints a line
-// "FILE: MESSAGE" for each that it refuses. A Windows program, for Wine.
-#define COBJMACROS
+// "FILE: MESSAGE" for each that it refuses; else "FILE@i NAME INDEX MASK REGISTER" for each input, and with @o for each output. A
+// Windows program, for Wine.
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <windows.h>
 
 // As dxcapi.h declares them, up to the last function that is called.
@@ -23,7 +25,9 @@ typedef HRESULT(__stdcall* Create)(const GUID* class_id, const GUID* interface_i
 typedef HRESULT(__stdcall* Compile)(Object*, const Buffer*, const wchar_t** arguments, UINT count, void* includes, const GUID*, void** result);
 typedef HRESULT(__stdcall* GetStatus)(Object*, HRESULT*);
 typedef HRESULT(__stdcall* GetBlob)(Object*, Object**);
+typedef HRESULT(__stdcall* Disassemble)(Object*, const Buffer*, const GUID*, void** result);
 typedef void*(__stdcall* GetData)(Object*);
+typedef size_t(__stdcall* GetSize)(Object*);
 typedef ULONG(__stdcall* Release)(Object*);
 
 static void release(Object* object)
@@ -48,6 +52,49 @@ static Buffer readFile(const char* path)
     return text;
 }
 
+/// Prints the tables of inputs and outputs that a module's text has.
+static void printSignatures(const char* path, const char* text)
+{
+    char kind = 0;
+    for (const char* line = text; line && *line == ';'; line = strchr(line, '\n'), line += line != NULL) {
+        char name[64];
+        char mask[16];
+        char place[16];
+        unsigned index;
+        if (strncmp(line, "; Input signature:", 18) == 0) {
+            kind = 'i';
+        } else if (strncmp(line, "; Output signature:", 19) == 0) {
+            kind = 'o';
+        } else if (strncmp(line, "; shader ", 9) == 0 || strncmp(line, "; Pipeline ", 11) == 0) {
+            kind = 0;
+        } else if (kind && sscanf(line, "; %63s %u %15s %15s", name, &index, mask, place) == 4) {
+            printf("%s@%c %s %u %s %s\n", path, kind, name, index, mask, place);
+        }
+    }
+}
+
+/// The result's blob: 4: what was made, 5: the errors.
+static Object* blobOf(Object* result, int which)
+{
+    Object* blob = NULL;
+    return result && SUCCEEDED(((GetBlob)result->calls[which])(result, &blob)) ? blob : NULL;
+}
+
+static void disassemble(Object* compiler, Object* result, const char* path)
+{
+    Object* made = blobOf(result, 4);
+    Object* text_result = NULL;
+    const Buffer buffer = {((GetData)made->calls[3])(made), ((GetSize)made->calls[4])(made), 0};
+    ((Disassemble)compiler->calls[4])(compiler, &buffer, &kResult, (void**)&text_result);
+    Object* text = blobOf(text_result, 4);
+    printSignatures(path, text ? ((GetData)text->calls[3])(text) : "");
+    if (text) {
+        release(text);
+        release(text_result);
+    }
+    release(made);
+}
+
 static void compile(Object* compiler, const wchar_t* profile, const char* path)
 {
     const Buffer text = readFile(path);
@@ -57,11 +104,10 @@ static void compile(Object* compiler, const wchar_t* profile, const char* path)
     if (SUCCEEDED(status)) {
         ((GetStatus)result->calls[3])(result, &status); // IDxcOperationResult: status, result, errors
     }
-    if (FAILED(status)) {
-        Object* errors = NULL;
-        if (result) {
-            ((GetBlob)result->calls[5])(result, &errors);
-        }
+    if (SUCCEEDED(status)) {
+        disassemble(compiler, result, path);
+    } else {
+        Object* errors = blobOf(result, 5);
         const char* message = errors ? ((GetData)errors->calls[3])(errors) : "cannot be compiled";
         printf("%s: %.*s\n", path, (int)strcspn(message, "\n"), message);
         if (errors) {

@@ -13,6 +13,11 @@ def draw(vertex: str, fragment: str, when: str) -> dict:
     return {"vertex": vertex, "fragment": fragment, "when": when}
 
 
+def mask(when: str) -> dict:
+    """In SPIR-V these modules have inputs, which software rasterisers alone read."""
+    return {"vertex": TRIANGLE, "spirv_vertex": "mask_numbers.vert", "fragment": "mask_[!s]*.frag", "when": when}
+
+
 def dispatch(compute: str, when: str) -> dict:
     return {"compute": compute, "when": when}
 
@@ -51,11 +56,10 @@ FRAME: dict[str, list[dict]] = {
         draw(TRIANGLE, "blur.frag", "with a blur, blur.path=fragment: along y"),
         dispatch("mip.comp", "a filterable filter with mip levels: each from the finer one"),
     ],
-    "mask": [draw("mask_numbers.vert", "mask_[!s]*.frag",
-                  "each draw of listMaskDraws(), by the module of pack::filterModule(); with mask-size=half into an image of half the size"),
+    "mask": [mask("each draw of listMaskDraws(), by the module of pack::filterModule(); with mask-size=half into an image of half the size"),
              dispatch("seen_cells.comp", "partition=virtual, after all that writes the mask: where its edges are, for Frame::requests")],
     "spread": [draw("mask_screen.vert", "mask_spread.frag", "where the image of half the size settles a pixel"),
-               draw("mask_numbers.vert", "mask_[!s]*.frag", "the pixels that are left")],
+               mask("the pixels that are left")],
     "volumes": [draw(TRIANGLE, "volume_depth.frag", "the camera's depth, beside a stencil"),
                 draw("volume.vert", "", "each draw of listVolumeDraws(): counts in the stencil"),
                 draw(TRIANGLE, "volume_mask.frag", "twice a light: outside of all volumes, inside of some")],
@@ -82,3 +86,15 @@ def order(modules: list[str]) -> list[dict]:
     if unused := set(modules) - used:
         raise ValueError(f"no step of the frame runs {', '.join(sorted(unused))}")
     return passes
+
+
+def programs(frame: list[dict]) -> list[tuple[str, ...]]:
+    """The modules that the texts of a dialect draw or dispatch with, together."""
+    found = {}
+    for kind in frame:
+        for step in kind["steps"]:
+            for name in step.get("compute", []):
+                found[(name,)] = None
+            for vertex in step.get("vertex", []):
+                found |= {(vertex, fragment): None for fragment in step["fragment"]} or {(vertex,): None}
+    return list(found)

@@ -19,6 +19,7 @@ import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import NamedTuple
 
 import dialects
 import frame
@@ -31,8 +32,15 @@ INCLUDES = ROOT / "shaders/include"
 CONSTANT = re.compile(r"constant_id = [^)]*\)\s*const \w+ (\w+) = [^;]*;[ \t]*(?://[ \t]*(.*(?:\n {20,}//.*)*))?")
 
 
-def listed(build: Path) -> list[tuple[str, Path, list[str], Path]]:
-    """(name, source, defines, the library's module) of each entry of gnomon_shaders() for a GPU."""
+class Entry(NamedTuple):
+    name: str
+    source: Path
+    defines: list[str]
+    made: Path  # the library's own module
+
+
+def listed(build: Path) -> list[Entry]:
+    """Each entry of gnomon_shaders() that is for a GPU."""
     found = []
     for target in ("gnomon_spirv", "gnomon_classic_spirv"):
         folder = build / "shaders" / target
@@ -40,7 +48,7 @@ def listed(build: Path) -> list[tuple[str, Path, list[str], Path]]:
             name, source, defines = line.split(":")
             split = [one for one in defines.split(",") if one]
             if dialects.FOR_SOFTWARE not in split:
-                found.append((name, ROOT / "shaders" / source, split, folder / f"{name}.spv"))
+                found.append(Entry(name, ROOT / "shaders" / source, split, folder / f"{name}.spv"))
     return sorted(found)
 
 
@@ -61,7 +69,8 @@ def meanings(source: Path) -> dict[str, str]:
     return found
 
 
-def describe(name: str, source: Path, defines: list[str], module: Module) -> dict:
+def describe(entry: Entry, module: Module) -> dict:
+    name, source, defines, _ = entry
     types = reflect.Types(module)
     stage = dialects.STAGES[source.suffix]
     said = meanings(source)
@@ -72,32 +81,31 @@ def describe(name: str, source: Path, defines: list[str], module: Module) -> dic
         described["workgroup_size"] = workgroup
     else:
         described |= {"stage_inputs": reflect.handed_on(module, types, INPUT), "stage_outputs": reflect.handed_on(module, types, OUTPUT)}
-    described["structs"] = {key: types.structs[key] for key in sorted(types.structs)}
-    return described
+    return described | {"structs": types.structs, "files": {}, "bindings": {}, "missing": dialects.missing(name, module)}
 
 
-def make_module(entry: tuple, wanted: list[str], out: Path, scratch: Path) -> dict:
-    name, source, defines, made = entry
-    base = scratch / f"{name}.spv"
-    module = dialects.readable(source, defines, INCLUDES, base)
-    described = describe(name, source, defines, module)
-    described |= {"files": {}, "bindings": {}, "missing": dialects.missing(name, module)}
-    any_format = any(one.get("format") == "any" for one in described["inputs"])
+def read(entry: Entry, scratch: Path) -> dict:
+    """The module without optimisation in the folder `scratch`, and what passes.json says of it."""
+    base = scratch / f"{entry.name}.spv"
+    module = dialects.readable(entry.source, entry.defines, INCLUDES, base)
+    return describe(entry, module)
+
+
+def write(entry: Entry, described: dict, given: list[dict], wanted: list[str], out: Path, scratch: Path) -> None:
+    """The files of a module. `given`: what the vertex shaders hand on that it is drawn with."""
+    name, inputs = entry.name, described["inputs"]
     for dialect in [one for one in wanted if one not in described["missing"]]:
         described["files"][dialect] = {}
-        for form in dialects.FORMATS.get(dialect, (None,)) if any_format else (None,):
+        for form in dialects.forms(name, dialect, inputs):
             file = f"{dialect}/{name}.{form + '.' if form else ''}{dialects.ENDINGS[dialect]}"
             described["files"][dialect][form or "any"] = file
             if dialect == "spirv":
-                shutil.copyfile(made, out / file)
+                shutil.copyfile(entry.made, out / file)
             else:
-                text = dialects.write(name, base.read_bytes(), dialect, described["inputs"], scratch, form)
-                (out / file).write_text(text, encoding="utf-8", newline="\n")
+                module = Module((scratch / f"{name}.spv").read_bytes())
+                (out / file).write_text(dialects.write(name, module, dialect, inputs, given, scratch, form), encoding="utf-8", newline="\n")
         if dialect != "spirv":
-            described["bindings"][dialect] = dialects.bindings(dialect, described["stage"], described["inputs"])
-    for one in described["inputs"]:
-        del one["id"]
-    return described
+            described["bindings"][dialect] = dialects.bindings(dialect, described["stage"], inputs)
 
 
 def translate_wgsl(out: Path, build: Path) -> None:
@@ -114,17 +122,25 @@ def make(build: Path, out: Path, wanted: list[str]) -> dict:
     for dialect in wanted:
         (out / dialect).mkdir(parents=True)
     entries = listed(build)
-    with tempfile.TemporaryDirectory() as scratch, ThreadPoolExecutor(int(os.environ.get("JOBS", os.cpu_count() or 1))) as pool:
-        modules = list(pool.map(lambda entry: make_module(entry, wanted, out, Path(scratch)), entries))
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(int(os.environ.get("JOBS", os.cpu_count() or 1))) as pool:
+        scratch = Path(folder)
+        modules = list(pool.map(lambda entry: read(entry, scratch), entries))
+        passes = frame.order([one.name for one in entries])
+        outputs = {one["name"]: one.get("stage_outputs", []) for one in modules}
+        given = {fragment: outputs[vertex] for vertex, fragment in (pair for pair in frame.programs(passes) if len(pair) == 2)}
+        list(pool.map(lambda entry, module: write(entry, module, given.get(entry.name, []), wanted, out, scratch), entries, modules))
         if "wgsl" in wanted:
             translate_wgsl(out, build)
+    for one in modules:
+        for member in one["inputs"]:
+            del member["id"]
     version = re.search(r"project\(gnomon VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
     structs = {}
     for one in modules:
         for name, members in one.pop("structs").items():
             if structs.setdefault(name, members) != members:
                 raise RuntimeError(f"{one['name']} lays {name} out otherwise than modules before it")
-    kit = {"gnomon": version, "dialects": wanted, "fixed": dialects.FIXED, "frame": frame.order([one["name"] for one in modules]),
+    kit = {"gnomon": version, "dialects": wanted, "fixed": dialects.FIXED, "frame": passes,
            "structs": dict(sorted(structs.items())), "modules": modules}
     (out / "passes.json").write_text(json.dumps(kit, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     return kit

@@ -8,7 +8,7 @@ from spirv import Module
 
 VOID, BOOL, INT, FLOAT, VECTOR, MATRIX, ARRAY, RUNTIME_ARRAY = 19, 20, 21, 22, 23, 24, 28, 29
 CONSTANT, SPEC_CONSTANT = 43, 50
-ARRAY_STRIDE, MATRIX_STRIDE, FLAT, NON_WRITABLE, NON_READABLE, OFFSET = 6, 7, 14, 24, 25, 35
+ARRAY_STRIDE, MATRIX_STRIDE, NON_WRITABLE, NON_READABLE, OFFSET = 6, 7, 24, 25, 35
 LOCAL_SIZE = 17
 FORMAT_NAMES = {number: name for name, number in spirv.FORMATS.items()}
 
@@ -160,7 +160,7 @@ def handed_on(module: Module, types: Types, storage: int) -> list[dict]:
         if location is not None:
             flags = [one.words[1] for one in module.all(spirv.DECORATE) if one.words[0] == target]
             found.append({"location": location, "name": module.name_of(target), "type": types.name(module.pointee(variable)),
-                          **({"flat": True} if FLAT in flags else {}), **({"per_sample": True} if spirv.SAMPLE in flags else {})})
+                          **({"flat": True} if spirv.FLAT in flags else {}), **({"per_sample": True} if spirv.SAMPLE in flags else {})})
     return sorted(found, key=lambda one: one["location"])
 
 

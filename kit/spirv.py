@@ -11,12 +11,12 @@ from dataclasses import dataclass
 MAGIC = 0x07230203
 # Opcodes, by their names in the specification.
 NAME, MEMBER_NAME, ENTRY_POINT, EXECUTION_MODE, CAPABILITY = 5, 6, 15, 16, 17
-TYPE_IMAGE, TYPE_SAMPLER, TYPE_SAMPLED_IMAGE, TYPE_STRUCT, TYPE_POINTER = 25, 26, 27, 30, 32
+TYPE_FLOAT, TYPE_VECTOR, TYPE_IMAGE, TYPE_SAMPLER, TYPE_SAMPLED_IMAGE, TYPE_STRUCT, TYPE_POINTER = 22, 23, 25, 26, 27, 30, 32
 FUNCTION, VARIABLE, LOAD, DECORATE, MEMBER_DECORATE, SAMPLED_IMAGE, IMAGE = 54, 59, 61, 71, 72, 86, 100
 TYPE_FUNCTION, COPY_OBJECT, CONSTANT_TRUE, CONSTANT_FALSE, SPEC_CONSTANT_TRUE, SPEC_CONSTANT_FALSE = 33, 83, 41, 42, 48, 49
 SAMPLES = (*range(87, 95), 96, 97)  # reads through a sampler, gathers among them
 # Decorations and storage classes.
-SPEC_ID, BUILT_IN, SAMPLE, LOCATION, BINDING, DESCRIPTOR_SET = 1, 11, 17, 30, 33, 34
+SPEC_ID, BUILT_IN, FLAT, SAMPLE, LOCATION, BINDING, DESCRIPTOR_SET = 1, 11, 14, 17, 30, 33, 34
 UNIFORM_CONSTANT, INPUT, UNIFORM, OUTPUT, PUSH_CONSTANT, STORAGE_BUFFER = 0, 1, 2, 3, 9, 12
 CLIP_DISTANCE, SAMPLE_RATE, WRITE_WITHOUT_FORMAT, VIEWPORT_INDEX_LAYER = 32, 35, 56, 5254  # capabilities
 LAYER = 9  # the built-in variable gl_Layer
@@ -212,10 +212,13 @@ class Module:
         loads = {one.words[1]: one.words[2] for one in self.all(LOAD)}
         return {loads[one.words[2]] for one in self.code if one.op in SAMPLES}
 
-    def drop_sample(self) -> None:
-        """Takes it away that inputs are read at each sample. Who draws asks for it instead."""
-        self.code = [one for one in self.code if not (one.op == DECORATE and one.words[1:] == [SAMPLE])
-                     and not (one.op == CAPABILITY and one.words == [SAMPLE_RATE])]
+    def sample_outputs(self) -> None:
+        """Makes outputs values at each sample, but for those that are flat."""
+        flat = {one.words[0] for one in self.all(DECORATE) if one.words[1] == FLAT}
+        for variable in self.variables(OUTPUT):
+            if self.decoration(variable.words[1], LOCATION) is not None and variable.words[1] not in flat:
+                self.insert_decoration([variable.words[1], SAMPLE])
+        self.code.insert(0, Instruction(CAPABILITY, [SAMPLE_RATE]))
 
     def hands_samplers_on(self) -> bool:
         """Is a function handed a texture?"""
@@ -225,11 +228,37 @@ class Module:
     def writes_layer(self) -> bool:
         return any(one.words[1:] == [BUILT_IN, LAYER] for one in self.all(DECORATE))
 
+    def add_inputs(self, wanted: list[dict]) -> None:
+        """Declares inputs of floats, as passes.json lists what a stage hands on, where there is none at that location. They
+        are read at each sample if others are."""
+        known = {self.decoration(one.words[1], LOCATION) for one in self.variables(INPUT)}
+        by_sample = any(one.words[1] == SAMPLE for one in self.all(DECORATE))
+        scalar = next(one.words[0] for one in self.all(TYPE_FLOAT))
+        for one in wanted:
+            if one["location"] in known:
+                continue
+            size = {"float": 1, "vec2": 2, "vec3": 3, "vec4": 4}[one["type"]]
+            vector = next((other.words[0] for other in self.all(TYPE_VECTOR) if other.words[1:] == [scalar, size]), scalar if size == 1 else 0)
+            new = [] if vector else [Instruction(TYPE_VECTOR, [self.new_id(), scalar, size])]
+            vector = vector or new[0].words[0]
+            pointer, variable = self.new_id(), self.new_id()
+            new += [Instruction(TYPE_POINTER, [pointer, INPUT, vector]), Instruction(VARIABLE, [pointer, variable, INPUT])]
+            self.insert_before(self.all(FUNCTION)[0], new)
+            self.rename(variable, one["name"] + "_unused")
+            self.insert_decoration([variable, LOCATION, one["location"]])
+            if one.get("flat"):
+                self.insert_decoration([variable, FLAT])
+            elif by_sample:
+                self.insert_decoration([variable, SAMPLE])
+            for entry in self.all(ENTRY_POINT):
+                entry.words.append(variable)
+
     def layer_to_location(self, location: int) -> bool:
         """Makes gl_Layer an output of this location. False: it is not written."""
         layers = [one.words[0] for one in self.all(DECORATE) if one.words[1:] == [BUILT_IN, LAYER]]
         for one in self.all(DECORATE):
             if one.words[0] in layers and one.words[1] == BUILT_IN:
                 one.words[1:] = [LOCATION, location]
+                self.rename(one.words[0], "target_layer")
         self.code = [one for one in self.code if one.op != CAPABILITY or one.words != [VIEWPORT_INDEX_LAYER]]
         return bool(layers)
