@@ -39,17 +39,17 @@ def run(*command: str) -> str:
     return done.stdout
 
 
-def readable(source: Path, defines: list[str], includes: Path, out: Path) -> Module:
-    """The module without optimisation, so that names and functions stay, and made for GPUs. Written to `out`."""
+def readable(source: Path, defines: list[str], includes: Path, out: Path) -> tuple[Module, dict[str, int]]:
+    """The module without optimisation, so that names and functions stay, and made for GPUs; it is written to `out`. And the ids
+    of the constants of FIXED that it had."""
     run("glslc", "--target-env=vulkan1.1", "-O0", "-Werror", *(f"-D{one}" for one in defines), f"-I{includes}", "-o", str(out), str(source))
     module = Module(out.read_bytes())
-    for name, value in FIXED.items():
-        module.fix_constant(name, value)
+    fixed = {name: module.fix_constant(name, value) for name, value in FIXED.items()}
     out.write_bytes(module.data())
     # A texture that a function is handed could not be parted from its sampler.
     whole = ("--merge-return", "--inline-entry-points-exhaustive") if module.hands_samplers_on() else ()
     run("spirv-opt", "--target-env=vulkan1.1", *whole, *CLEAN, str(out), "-o", str(out))
-    return Module(out.read_bytes())
+    return Module(out.read_bytes()), {name: number for name, number in fixed.items() if number is not None}
 
 
 def sampler_binding(binding: int) -> int:

@@ -69,14 +69,15 @@ def meanings(source: Path) -> dict[str, str]:
     return found
 
 
-def describe(entry: Entry, module: Module) -> dict:
+def describe(entry: Entry, module: Module, fixed: dict[str, int]) -> dict:
     name, source, defines, _ = entry
     types = reflect.Types(module)
     stage = dialects.STAGES[source.suffix]
     said = meanings(source)
     constants = [one | ({"meaning": said[one["name"]]} if one["name"] in said else {}) for one in reflect.constants_of(module, types)]
     described = {"name": name, "source": f"shaders/passes/{source.name}", "defines": defines, "purpose": purpose(source), "stage": stage,
-                 "entry_point": "main", "inputs": reflect.inputs_of(module, types), "constants": constants}
+                 "entry_point": "main", "inputs": reflect.inputs_of(module, types), "constants": constants,
+                 "fixed": [{"id": number, "name": said_as, "value": dialects.FIXED[said_as]} for said_as, number in fixed.items()]}
     if workgroup := reflect.workgroup_of(module):
         described["workgroup_size"] = workgroup
     else:
@@ -87,8 +88,8 @@ def describe(entry: Entry, module: Module) -> dict:
 def read(entry: Entry, scratch: Path) -> dict:
     """The module without optimisation in the folder `scratch`, and what passes.json says of it."""
     base = scratch / f"{entry.name}.spv"
-    module = dialects.readable(entry.source, entry.defines, INCLUDES, base)
-    return describe(entry, module)
+    module, fixed = dialects.readable(entry.source, entry.defines, INCLUDES, base)
+    return describe(entry, module, fixed)
 
 
 def write(entry: Entry, described: dict, given: list[dict], wanted: list[str], out: Path, scratch: Path) -> None:
@@ -140,7 +141,7 @@ def make(build: Path, out: Path, wanted: list[str]) -> dict:
         for name, members in one.pop("structs").items():
             if structs.setdefault(name, members) != members:
                 raise RuntimeError(f"{one['name']} lays {name} out otherwise than modules before it")
-    kit = {"gnomon": version, "dialects": wanted, "fixed": dialects.FIXED, "frame": passes,
+    kit = {"gnomon": version, "dialects": wanted, "frame": passes,
            "structs": dict(sorted(structs.items())), "modules": modules}
     (out / "passes.json").write_text(json.dumps(kit, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     return kit

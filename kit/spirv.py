@@ -197,15 +197,16 @@ class Module:
         self.code = [one for one in self.code if one.op != CAPABILITY or one.words != [WRITE_WITHOUT_FORMAT]]
         return bool(images)
 
-    def fix_constant(self, name: str, value: bool) -> bool:
-        """Makes the specialisation constant of this name a constant. False: there is none."""
+    def fix_constant(self, name: str, value: bool) -> int | None:
+        """Makes the specialisation constant of this name a constant, and returns its id for hosts. None: there is none."""
         targets = self.named(name)
         for one in self.code:
             if one.op in (SPEC_CONSTANT_TRUE, SPEC_CONSTANT_FALSE) and one.words[1] in targets:
                 one.op = CONSTANT_TRUE if value else CONSTANT_FALSE
+                number = self.decoration(one.words[1], SPEC_ID)
                 self.code = [other for other in self.code if not (other.op == DECORATE and other.words[:2] == [one.words[1], SPEC_ID])]
-                return True
-        return False
+                return number
+        return None
 
     def sampled(self) -> set[int]:
         """The textures that are read through a sampler. Of others texels are fetched."""

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints what vulkan/ binds for each module in some pipeline of the library, a line each: "MODULE SET BINDING TYPE", with the
-// number of the VkDescriptorType, and "MODULE push BYTES". A line comes once. tests/kit/test_kit.py holds passes.json to it.
+// Prints each module that is in some pipeline of the library, and what vulkan/ binds for it, a line each: "MODULE", "MODULE SET
+// BINDING TYPE", with the number of the VkDescriptorType, and "MODULE push BYTES". A line comes once. tests/kit/test_kit.py holds passes.json to it.
 #include "library_pipelines.h"
 #include "null_driver.h"
 #include "pipeline_names.h"
@@ -37,6 +37,7 @@ struct Listener {
     {
         const std::string& module = modules.at(stage.module);
         const Layout& layout = layouts.at(used);
+        lines.insert(module);
         for (std::size_t set = 0; set < layout.sets.size(); ++set) {
             for (const VkDescriptorSetLayoutBinding& one : sets.at(layout.sets[set])) {
                 if ((one.stageFlags & stage.stage) != 0) {

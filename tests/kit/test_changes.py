@@ -97,8 +97,8 @@ class Changes(unittest.TestCase):
 
     def test_a_constant_is_fixed(self):
         module = self.compiled(READS)
-        self.assertTrue(module.fix_constant("kSoftware", False))
-        self.assertFalse(module.fix_constant("kNone", False))
+        self.assertEqual(module.fix_constant("kSoftware", False), 1)
+        self.assertIsNone(module.fix_constant("kNone", False))
         self.assert_valid(module)
         self.assertEqual([one["name"] for one in reflect.constants_of(module, reflect.Types(module))], ["kSize"])
 

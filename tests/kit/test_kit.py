@@ -39,9 +39,10 @@ def text_places(dialect: str, text: str) -> set[str]:
             found.add(f"{kind} {number}")
         return found
     if dialect == "hlsl":
-        rest = re.sub(r"cbuffer SPIRV_Cross_VertexInfo[^{]*", "", text)
+        rest = re.sub(r"cbuffer SPIRV_Cross_VertexInfo[^{]*", "", text) # the first vertex and instance: docs/kit.md
         return {f"{register} {space}" for register, space in re.findall(r": register\((\w+), space(\d+)\)", rest)}
     if dialect == "msl":
+        text = re.sub(r"spvBufferSizeConstants \[\[[^]]*\]\]", "", text) # lengths of buffers: docs/kit.md
         return {f"{kind} {number}" for kind, number in re.findall(r"\[\[(buffer|texture|sampler)\((\d+)\)\]\]", text)}
     return {f"{group} {binding}" for group, binding in re.findall(r"@group\((\d+)\) @binding\((\d+)\)", text)}
 
@@ -59,7 +60,7 @@ def said_places(dialect: str, bindings: list[dict]) -> set[str]:
 
 
 def text_constants(dialect: str, text: str) -> set[int]:
-    forms = {"msl": r"function_constant\((\d+)\)", "wgsl": r"@id\((\d+)\)"}
+    forms = {"wgsl": r"@id\((\d+)\)", "msl": r"(?:function_constant\(|#ifndef SPIRV_CROSS_CONSTANT_ID_)(\d+)"} # a macro where it sizes an array
     return {int(one) for one in re.findall(forms.get(dialect, r"#ifndef SPIRV_CROSS_CONSTANT_ID_(\d+)"), text)}
 
 
@@ -122,8 +123,8 @@ def faults_of_modules(kit: dict, folder: Path) -> list[str]:
         push = next((one for one in module["inputs"] if one["kind"] == "push"), {"size": 0, "members": []})
         if (push["members"][-1]["offset"] + push["members"][-1]["size"] if push["members"] else 0) != pushed:
             found.append(f"{module['name']} has {pushed} bytes of push data, not {push['size']}")
-        if not {one["id"] for one in module["constants"]} <= constants:
-            found.append(f"{module['name']} has the constants {sorted(constants)}")
+        if lost := constants - {one["id"] for one in module["constants"] + module["fixed"]}:
+            found.append(f"{module['name']} has the constants {sorted(lost)}, too")
     return found
 
 
@@ -134,9 +135,9 @@ def layouts() -> dict[str, tuple[dict, int]]:
     for line in subprocess.run([LAYOUTS], capture_output=True, text=True, check=True).stdout.splitlines():
         name, *words = line.split()
         bound, pushed = found.get(name, ({}, 0))
-        if words[0] == "push":
+        if words[:1] == ["push"]:
             pushed = max(pushed, int(words[1]))
-        else:
+        elif words:
             bound.setdefault((int(words[0]), int(words[1])), set()).add(int(words[2]))
         found[name] = (bound, pushed)
     return found
@@ -165,7 +166,7 @@ def faults_of_frame(kit: dict, folder: Path) -> list[str]:
     source = read(ROOT / "pack/src/frame_passes.cpp")
     listed = list(dict.fromkeys(re.findall(r"push_back\(\{FramePassKind::(\w+)", source)))
     found += [] if listed == kinds else ["listFramePasses() has another order"]
-    run = {name for one in kit["frame"] for step in one["steps"] for key in ("vertex", "fragment", "compute") for name in step.get(key, [])}
+    run = {name for one in kit["frame"] for step in one["steps"] for key in ("vertex", "spirv_vertex", "fragment", "compute") for name in step.get(key, [])}
     return found + [f"no pass runs {one['name']}" for one in kit["modules"] if one["name"] not in run]
 
 
@@ -210,6 +211,11 @@ class Kit(unittest.TestCase):
         def move(kit):
             module(kit, "soften.frag")["inputs"][1]["binding"] = 9
         self.hold(faults_of_modules, move, "soften.frag")
+
+    def test_a_lost_constant_is_found(self):
+        def forget(kit):
+            del module(kit, "mask_pcf.frag")["constants"][0]
+        self.hold(faults_of_modules, forget, "mask_pcf.frag has the constants [0], too")
 
     def test_push_data_is_that_of_the_librarys_modules(self):
         def shorten(kit):
