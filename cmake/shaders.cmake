@@ -39,7 +39,8 @@ endfunction()
 # gnomon_shaders(TARGET [NAMESPACE NAME] ENTRIES...): makes an object library that embeds each entry as `const std::span<const
 # std::uint32_t> NAME::ENTRY` (with dots as underscores), declared in the generated header "TARGET.h", which also has all of
 # them in `NAME::all_of_TARGET` and their names ("pass.frag") in `NAME::names_of_TARGET`. Target TARGET_modules makes the SPIR-V files
-# TARGET/NAME.spv alone; TARGET/TARGET.txt lists them as "NAME:SOURCE:DEFINE,DEFINE". NAME is TARGET if not given. An entry is a source, or one of gnomon_shader_variants().
+# TARGET/NAME.spv alone; TARGET/TARGET.txt lists them as "NAME:SOURCE:DEFINE,DEFINE". NAME is TARGET if not given. An entry is a
+# source, or one of gnomon_shader_variants().
 # Sources find gnomon's GLSL as "gnomon/visibility.glsl". Debug builds keep their lines and names in the SPIR-V, but for those
 # with sanitizers, which look at C++ alone.
 # GNOMON_SHADER_CACHE is a folder where modules are kept, and taken from by every build of the same sources; empty: none.

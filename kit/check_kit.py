@@ -203,28 +203,35 @@ def called_together(names: list[str]) -> str:
 
 def table(kit: dict, cells: dict[str, list[str]]) -> str:
     heads = [{"spirv": "SPIR-V"}.get(one, one.upper()) for one in dialects.DIALECTS]
-    lines = [f"| module | {' | '.join(heads)} |", "|---" * (len(heads) + 1) + "|"]
-    grouped: dict[tuple, list[str]] = {}
+    lines = [f"| modules | {' | '.join(heads)} |", "|---" * (len(heads) + 1) + "|"]
+    grouped: dict[tuple, dict[str, list[str]]] = {}
     for one in kit["modules"]:
-        grouped.setdefault((one["source"], *cells[one["name"]]), []).append(one["name"])
-    lines += [f"| `{called_together(names)}` | {' | '.join(key[1:])} |" for key, names in grouped.items()]
+        grouped.setdefault(tuple(cells[one["name"]]), {}).setdefault(one["source"], []).append(one["name"])
+    lines += [f"| {', '.join(f'`{called_together(names)}`' for names in sources.values())} | {' | '.join(row)} |" for row, sources in grouped.items()]
     count = len(kit["modules"])
     counts = [sum(row[i] != "–" for row in cells.values()) for i in range(len(heads))]
     lines.append(f"| {count} modules | {' | '.join(map(str, counts))} |")
     reasons = {}
     for one in kit["modules"]:
         for dialect, why in one["missing"].items():
-            reasons.setdefault((dialect, why), []).append(one["name"])
-    lines += ["", *(f"- Missing as {dialect.upper()}, `{called_together(names)}`: {why}." for (dialect, why), names in reasons.items())]
+            reasons.setdefault(why, {}).setdefault(one["name"], []).append(dialect.upper())
+    for why, names in reasons.items():
+        dialects_of = sorted({dialect for some in names.values() for dialect in some})
+        lines += ["", f"`{called_together(list(names))}` is missing as {' and '.join(dialects_of)}: {why}."]
     return "\n".join(lines)
+
+
+def called_alone(pattern: str) -> list[str]:
+    """The names that called_together() has made one of."""
+    opened = re.fullmatch(r"(.*)\{(.*)\}(.*)", pattern)
+    return [opened[1] + part + opened[3] for part in opened[2].split(",")] if opened else [pattern]
 
 
 def kept_cells(text: str) -> dict[tuple[str, str], str]:
     """The cells of a table, by module and dialect."""
     found = {}
-    for pattern, row in re.findall(r"^\| `([^`]+)` \| (.*) \|$", text, re.MULTILINE):
-        opened = re.fullmatch(r"(.*)\{(.*)\}(.*)", pattern)
-        for name in [opened[1] + part + opened[3] for part in opened[2].split(",")] if opened else [pattern]:
+    for patterns, row in re.findall(r"^\| (`[^|]+`) \| (.*) \|$", text, re.MULTILINE):
+        for name in [name for pattern in re.findall("`([^`]+)`", patterns) for name in called_alone(pattern)]:
             found |= {(name, dialect): cell for dialect, cell in zip(dialects.DIALECTS, row.split(" | "), strict=True)}
     return found
 

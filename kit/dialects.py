@@ -15,6 +15,14 @@ from spirv import Module
 TEXT = ("glsl", "essl", "hlsl", "msl", "wgsl")
 DIALECTS = ("spirv", *TEXT)
 ENDINGS = {"spirv": "spv", "glsl": "glsl", "essl": "essl", "hlsl": "hlsl", "msl": "metal", "wgsl": "wgsl"}
+MACRO = "the macro SPIRV_CROSS_CONSTANT_ID_<id>, defined before the text"
+# By dialect: the entry point, how a specialisation constant is set, and where push data lies.
+HOW = {"spirv": {"entry_point": "main", "constants": "SpecId <id>", "push_data": "push constants"},
+       "glsl": {"entry_point": "main", "constants": MACRO, "push_data": "uniform block, binding 9 of a vertex shader, 10 of others"},
+       "essl": {"entry_point": "main", "constants": MACRO, "push_data": "uniform block, binding 9 of a vertex shader, 10 of others"},
+       "hlsl": {"entry_point": "main", "constants": MACRO, "push_data": "cbuffer, register b0, space 3"},
+       "msl": {"entry_point": "main0", "constants": f"function_constant(<id>); where it sizes an array {MACRO}", "push_data": "buffer 15"},
+       "wgsl": {"entry_point": "main", "constants": "override @id(<id>)", "push_data": "uniform buffer, group 3, binding 0"}}
 # Formats of the maps that compute passes write, where a dialect has to be told: those that every device of it can store to.
 FORMATS = {"essl": ("r32f", "rgba16f", "rgba32f"), "wgsl": ("r32f", "rg32f", "rgba16f", "rgba32f")}
 # Dialects whose drivers refuse an input of a fragment shader that is read at each sample, where the vertex shader's output does

@@ -76,7 +76,7 @@ def describe(entry: Entry, module: Module, fixed: dict[str, int]) -> dict:
     said = meanings(source)
     constants = [one | ({"meaning": said[one["name"]]} if one["name"] in said else {}) for one in reflect.constants_of(module, types)]
     described = {"name": name, "source": f"shaders/passes/{source.name}", "defines": defines, "purpose": purpose(source), "stage": stage,
-                 "entry_point": "main", "inputs": reflect.inputs_of(module, types), "constants": constants,
+                 "inputs": reflect.inputs_of(module, types), "constants": constants,
                  "fixed": [{"id": number, "name": said_as, "value": dialects.FIXED[said_as]} for said_as, number in fixed.items()]}
     if workgroup := reflect.workgroup_of(module):
         described["workgroup_size"] = workgroup
@@ -141,7 +141,7 @@ def make(build: Path, out: Path, wanted: list[str]) -> dict:
         for name, members in one.pop("structs").items():
             if structs.setdefault(name, members) != members:
                 raise RuntimeError(f"{one['name']} lays {name} out otherwise than modules before it")
-    kit = {"gnomon": version, "dialects": wanted, "frame": passes,
+    kit = {"gnomon": version, "dialects": {one: dialects.HOW[one] for one in wanted}, "frame": passes,
            "structs": dict(sorted(structs.items())), "modules": modules}
     (out / "passes.json").write_text(json.dumps(kit, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     return kit

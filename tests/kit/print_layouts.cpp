@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints each module that is in some pipeline of the library, and what vulkan/ binds for it, a line each: "MODULE", "MODULE SET
-// BINDING TYPE", with the number of the VkDescriptorType, and "MODULE push BYTES". A line comes once. tests/kit/test_kit.py holds passes.json to it.
+// Prints each module that is in some pipeline of the library, and what vulkan/ binds for it, a line each: "MODULE",
+// "MODULE SET BINDING TYPE", with the number of the VkDescriptorType, and "MODULE push BYTES". A line comes once.
+// tests/kit/test_kit.py holds passes.json to it.
 #include "library_pipelines.h"
 #include "null_driver.h"
 #include "pipeline_names.h"
@@ -88,9 +89,8 @@ VKAPI_ATTR VkResult VKAPI_CALL makeLayout(VkDevice device, const VkPipelineLayou
                                           const VkAllocationCallbacks* host, VkPipelineLayout* made)
 {
     const VkResult result = below<PFN_vkCreatePipelineLayout>("vkCreatePipelineLayout")(device, info, host, made);
-    listener().layouts[*made] = {
-        {info->pSetLayouts, info->pSetLayouts + info->setLayoutCount},
-        {info->pPushConstantRanges, info->pPushConstantRanges + info->pushConstantRangeCount}};
+    listener().layouts[*made] = {{info->pSetLayouts, info->pSetLayouts + info->setLayoutCount},
+                                 {info->pPushConstantRanges, info->pPushConstantRanges + info->pushConstantRangeCount}};
     return result;
 }
 
@@ -128,12 +128,10 @@ PFN_vkVoidFunction VKAPI_CALL ofInstance(VkInstance instance, const char* name)
     const auto entry = [](auto function) {
         return reinterpret_cast<PFN_vkVoidFunction>(function);
     };
-    const std::pair<const char*, PFN_vkVoidFunction> ours[] = {{"vkGetDeviceProcAddr", entry(&ofDevice)},
-                                                               {"vkCreateShaderModule", entry(&makeModule)},
-                                                               {"vkCreateDescriptorSetLayout", entry(&makeSet)},
-                                                               {"vkCreatePipelineLayout", entry(&makeLayout)},
-                                                               {"vkCreateGraphicsPipelines", entry(&makeGraphics)},
-                                                               {"vkCreateComputePipelines", entry(&makeCompute)}};
+    const std::pair<const char*, PFN_vkVoidFunction> ours[] = {
+        {"vkGetDeviceProcAddr", entry(&ofDevice)},           {"vkCreateShaderModule", entry(&makeModule)},
+        {"vkCreateDescriptorSetLayout", entry(&makeSet)},    {"vkCreatePipelineLayout", entry(&makeLayout)},
+        {"vkCreateGraphicsPipelines", entry(&makeGraphics)}, {"vkCreateComputePipelines", entry(&makeCompute)}};
     for (const auto& [known, function] : ours) {
         if (std::strcmp(known, name) == 0) {
             return function;
