@@ -52,16 +52,6 @@ def program(*names: str) -> str:
     raise Absent(f"there is no {names[0]}")
 
 
-def one_by_one(files: list[File], command: Callable[[File], list[str]]) -> Refusals:
-    refused = {}
-    for file in files:
-        done = subprocess.run(command(file), capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            lines = [line for line in (done.stdout + done.stderr).splitlines() if "rror" in line]
-            refused[file.module] = (lines or ["refused"])[0]
-    return refused
-
-
 def by_lines(text: str, files: list[File]) -> Refusals:
     """Of a program that prints "FILE: MESSAGE"."""
     refused = {}
@@ -73,13 +63,28 @@ def by_lines(text: str, files: list[File]) -> Refusals:
 
 
 def ask_spirv_val(files: list[File], kit: dict, build: Path) -> Refusals:
-    tool = program("spirv-val")
-    return one_by_one(files, lambda file: [tool, "--target-env", "vulkan1.3", str(file.path)])
+    tool, refused = program("spirv-val"), {}
+    for file in files:
+        done = subprocess.run([tool, "--target-env", "vulkan1.3", str(file.path)], capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            refused[file.module] = (done.stderr.splitlines() or ["refused"])[0]
+    return refused
 
 
 def ask_glslang(files: list[File], kit: dict, build: Path) -> Refusals:
-    tool = program("glslangValidator")
-    return one_by_one(files, lambda file: [tool, "-S", file.stage[:4], str(file.path)])
+    """All files of a stage at once. It prints a file's name, and then what is wrong with it."""
+    tool, refused = program("glslangValidator"), {}
+    for stage in dialects.STAGES.values():
+        names = {str(one.path): one.module for one in files if one.stage == stage}
+        done = subprocess.run([tool, "-S", stage[:4], *names], capture_output=True, text=True, check=False)
+        module = ""
+        for line in done.stdout.splitlines():
+            module = names.get(line, module)
+            if line.startswith("ERROR"):
+                refused.setdefault(module, line)
+        if (done.returncode != 0) != any(one in refused for one in names.values()):
+            raise RuntimeError(f"glslangValidator ended with status {done.returncode}: {done.stdout[-300:]}")
+    return refused
 
 
 def ask_mesa(files: list[File], kit: dict, build: Path) -> Refusals:
