@@ -32,7 +32,7 @@ STAGES = {".vert": "vertex", ".frag": "fragment", ".comp": "compute"}
 LAYER_LOCATION = 30   # of gl_Layer while a module goes through a translator that knows no such output of a vertex shader
 LARGEST = {"kRadius": 31} # kMostBlurRadius of filter_pass.h; WGSL has no arrays in functions that a constant sizes
 LAYERED = "no vertex shader chooses a layer there; draw the views in turn with `{}`"
-# Passes that a device may draw with a module each in software alone (mask_numbers.glsl). The kit leaves them out.
+# Modules with this define are for software rasterisers alone (mask_numbers.glsl). The kit leaves them out.
 FOR_SOFTWARE = "GNOMON_ONE_VIEW"
 # Whether a software rasteriser runs it. The texts are for GPUs.
 FIXED = {"kInSoftware": False}
@@ -152,7 +152,8 @@ def write(name: str, module: Module, dialect: str, inputs: list[dict], given: li
     path.write_bytes(module.data())
     if dialect == "wgsl":
         return str(path) # to_wgsl.mjs translates all of them in one process
-    text = run("spirv-cross", str(path), *OPTIONS[dialect], *extensions(module, dialect), *(("--flip-vert-y",) if stage == "vertex" and dialect in ("hlsl", "msl") else ()))
+    flip = ("--flip-vert-y",) if stage == "vertex" and dialect in ("hlsl", "msl") else () # naga does so by itself
+    text = run("spirv-cross", str(path), *OPTIONS[dialect], *extensions(module, dialect), *flip)
     if layered:
         text = text.replace(f": TEXCOORD{LAYER_LOCATION};", ": SV_RenderTargetArrayIndex;")
     return text

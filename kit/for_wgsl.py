@@ -7,10 +7,10 @@ from collections.abc import Callable
 import spirv
 from spirv import Instruction, Module
 
-TYPE_INT, TYPE_ARRAY, CONSTANT, CONSTANT_COMPOSITE, SPEC_CONSTANT, SPEC_CONSTANT_COMPOSITE, SPEC_CONSTANT_OP = 21, 28, 43, 44, 50, 51, 52
+TYPE_INT, TYPE_ARRAY, CONSTANT, SPEC_CONSTANT, SPEC_CONSTANT_COMPOSITE, SPEC_CONSTANT_OP = 21, 28, 43, 50, 51, 52
 ADD, SUBTRACT, MULTIPLY, COMPOSITE_CONSTRUCT = 128, 130, 132, 80
-ACCESS_CHAIN, STORE, LABEL, RETURN, FUNCTION_END, PHI = 65, 62, 248, 253, 56, 245
-NON_WRITABLE, PRIVATE, INPUT = 24, 6, 1
+ACCESS_CHAIN, STORE, LABEL, RETURN, FUNCTION_END = 65, 62, 248, 253, 56
+NON_WRITABLE, PRIVATE = 24, 6
 # Which operands of an instruction are no ids, though they are behind its type and result: from where on, or at which places.
 # Every other operand in a function is an id or, for these modules, a number that no operation on constants has as its id.
 LITERALS = {12: lambda words: (3,), 61: lambda words: range(3, len(words)), 62: lambda words: range(2, len(words)),
@@ -104,7 +104,7 @@ def size_arrays(module: Module, largest: dict[str, int]) -> None:
 
 def split_arrays(module: Module) -> None:
     """Makes a variable of each element of arrays that stages hand on; the array itself is the module's own."""
-    for storage in (INPUT, spirv.OUTPUT):
+    for storage in (spirv.INPUT, spirv.OUTPUT):
         for variable in module.variables(storage):
             array = module.result(TYPE_ARRAY, module.pointee(variable))
             if array is not None and module.decoration(variable.words[1], spirv.LOCATION) is not None:
@@ -143,11 +143,11 @@ def _split_array(module: Module, variable: Instruction, array: Instruction, stor
     def copy(index: int, one: int) -> list[Instruction]:
         place, value = module.new_id(), module.new_id()
         chain = Instruction(ACCESS_CHAIN, [own_pointer, place, target, index])
-        if storage == INPUT:
+        if storage == spirv.INPUT:
             return [chain, Instruction(spirv.LOAD, [element, value, one]), Instruction(STORE, [place, value])]
         return [chain, Instruction(spirv.LOAD, [element, value, place]), Instruction(STORE, [one, value])]
 
-    _in_main(module, storage == INPUT, lambda: [step for pair in elements for step in copy(*pair)])
+    _in_main(module, storage == spirv.INPUT, lambda: [step for pair in elements for step in copy(*pair)])
 
 
 def _chains_to_private(module: Module, target: int) -> None:

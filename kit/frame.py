@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The modules that a frame runs, in order, by the kinds of pack::listFramePasses() (gnomon/pack/frame_passes.h), whose list
 for a plan says which of these kinds there are. A step is a draw (a vertex and a fragment module) or a dispatch; names are
-patterns, of which one module each is taken. `when`: what it takes for the step to be run."""
+patterns, of which one module each is taken. `when` says what it takes for the step to be run."""
 
 import fnmatch
 

@@ -62,7 +62,7 @@ def purpose(source: Path) -> str:
 def meanings(source: Path) -> dict[str, str]:
     """What comments say of specialisation constants, in the source and all that it may include."""
     found = {}
-    for file in [*sorted(INCLUDES.rglob("*.glsl")), source]:
+    for file in [*sorted(INCLUDES.rglob("*.glsl")), source]: # the source's own come last, and count
         for name, comment in CONSTANT.findall(file.read_text(encoding="utf-8")):
             if comment:
                 found[name] = re.sub(r"\s*\n\s*//\s*", " ", comment).strip()
@@ -155,7 +155,7 @@ def main() -> int:
     options = parser.parse_args()
     try:
         kit = make(options.build, options.out, [one for one in dialects.DIALECTS if one not in options.without])
-    except (OSError, RuntimeError) as error:
+    except (OSError, RuntimeError, ValueError) as error:
         print(f"kit: {error}", file=sys.stderr)
         return 1
     files = sum(len(forms) for one in kit["modules"] for forms in one["files"].values())

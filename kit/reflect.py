@@ -6,7 +6,8 @@ import struct
 import spirv
 from spirv import Module
 
-VOID, BOOL, INT, FLOAT, VECTOR, MATRIX, ARRAY, RUNTIME_ARRAY = 19, 20, 21, 22, 23, 24, 28, 29
+# Opcodes. All types lie between the first and the last of this line: 20 bool, 21 integer, 22 float, 23 vector, 24 matrix, 30 struct.
+VOID, ARRAY, RUNTIME_ARRAY, TYPE_FUNCTION = 19, 28, 29, 33
 CONSTANT, SPEC_CONSTANT = 43, 50
 ARRAY_STRIDE, MATRIX_STRIDE, NON_WRITABLE, NON_READABLE, OFFSET = 6, 7, 24, 25, 35
 LOCAL_SIZE = 17
@@ -16,7 +17,7 @@ FORMAT_NAMES = {number: name for name, number in spirv.FORMATS.items()}
 class Types:
     def __init__(self, module: Module):
         self.module = module
-        self.declared = {one.words[0]: one for one in module.code if VOID <= one.op <= 33}
+        self.declared = {one.words[0]: one for one in module.code if VOID <= one.op <= TYPE_FUNCTION}
         self.values = {one.words[1]: one.words[2] for one in module.all(CONSTANT)}
         self.structs: dict[str, list[dict]] = {}
 
