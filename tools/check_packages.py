@@ -34,7 +34,8 @@ KIT = (*CHECKS, "kit", "compilers of the kit")
 # (beginning of a path, which sections its files may use); the longest counts. Objects lie in the folders of their targets.
 SECTIONS = [("", CHECKS), ("cmake/", PROGRAM), ("core/", LIBRARY), ("pack/", LIBRARY), ("vulkan/", LIBRARY), ("shaders/", LIBRARY),
             ("examples/", LIBRARY), *((f"{name}/", PROGRAM) for name in ("files", "image", "scene", "worlds", "truth", "host", "lab", "app")),
-            ("tests/", TESTS), ("tests/fuzz/", CHECKS), ("tests/site/", SITE), ("kit/", KIT), ("tools/make_", SITE), ("tools/site_pages.py", SITE)]
+            ("tests/", TESTS), ("tests/fuzz/", CHECKS), ("tests/site/", SITE), ("kit/", KIT), ("tests/kit/", KIT),
+            ("tools/make_", SITE), ("tools/site_pages.py", SITE)]
 FOLDERS = ("/usr/bin", "/usr/sbin", "/bin", "/sbin", "/usr/games")
 WORD = r"([A-Za-z][\w.+-]*)(?=[\s)\"';|&]|$)"
 # A word where a shell expects a command: at the beginning, behind what joins commands, or behind one that runs another.
