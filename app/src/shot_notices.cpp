@@ -18,13 +18,23 @@
 namespace gnomon::app {
 namespace {
 
+std::vector<Settings> techniquesOf(const Settings& settings)
+{
+    return hasManyTechniques(settings) ? contestants(settings) : std::vector{settings};
+}
+
 /// A mean over frames needs more than one, and pages follow the edges of earlier frames.
 void noteFrames(Shot& shot, const Settings& settings)
 {
-    const bool is_one = settings.converge == 1 && !settings.frames && !settings.truth;
-    if (settings.subcommand == kRender && settings.learnsFromFrames() && is_one) {
+    const bool draws = settings.subcommand == kCompare || (settings.subcommand == kRender && !settings.truth);
+    if (!draws || settings.converge != 1 || settings.frames) {
+        return;
+    }
+    const std::vector<Settings> techniques = techniquesOf(settings);
+    const auto learns = std::ranges::find_if(techniques, &Settings::learnsFromFrames);
+    if (learns != techniques.end()) {
         shot.notices.push_back(fmt::format("{}, and this is one frame; --converge N draws N at rest",
-                                           settings.shadow.technique.soften == Soften::converge
+                                           learns->shadow.technique.soften == Soften::converge
                                                ? "soften converge averages frames"
                                                : "partition virtual has pages by what the frames before showed"));
     }
@@ -57,8 +67,7 @@ void noteLights(Shot& shot, const Settings& settings)
 /// light.
 void noteSizes(Shot& shot, const Settings& settings)
 {
-    const std::vector<Settings> techniques =
-        hasManyTechniques(settings) ? contestants(settings) : std::vector{settings};
+    const std::vector<Settings> techniques = techniquesOf(settings);
     const bool asks = std::ranges::any_of(techniques, [](const Settings& technique) {
         return integratesLight(technique.shadow) && filterOf(technique.shadow) != Filter::raymarch;
     });

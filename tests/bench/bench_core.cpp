@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cost of planning, and its growth with the number of objects. Scenes keep their density: ten times the objects
 // cover ten times the ground, and the camera rises until it sees all of it.
+#include <gnomon/pack/caster_rows.h>
 #include <gnomon/planner.h>
 
 #include <benchmark/benchmark.h>
@@ -152,6 +153,26 @@ void planAutoCameraMoving(benchmark::State& state)
     planMovedByAHair(state, options);
 }
 BENCHMARK(planAutoCameraMoving)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
+
+/// A sun's map that is drawn anew, as far as the CPU does it: a row for each of its casters.
+void writeRowsOfCasters(benchmark::State& state)
+{
+    World world(state.range(0), 10);
+    Planner planner({.technique = kPlainTechnique});
+    const Plan& plan = planner.plan(world.frame);
+    const pack::CasterRows rows(plan.views.front());
+    const std::vector<pack::Rows3x4> transforms(world.ids.size());
+    std::vector<glm::vec4> out(plan.casters.size() * pack::casterRowCount(true));
+    for (auto _ : state) {
+        glm::vec4* at = out.data();
+        for (const std::uint32_t object : plan.casters) {
+            at = rows.write(transforms[object], at);
+        }
+        benchmark::DoNotOptimize(out.data());
+    }
+    state.SetComplexityN(state.range(0));
+}
+BENCHMARK(writeRowsOfCasters)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
 
 /// A frustum that sees about a tenth of the world.
 void querySmallRegion(benchmark::State& state)

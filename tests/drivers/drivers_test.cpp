@@ -205,6 +205,8 @@ std::vector<DriverCase> cases()
     for (const char* partition : {"cube", "paraboloid", "multi"}) {
         add(std::string("lamp_") + partition, "planes", tiny + "--point 0,4,0,30 --technique pcf+" + partition);
     }
+    add("partition_virtual", "planes", small + "--technique pcf+virtual --converge 4", 25);
+    add("lamp_virtual", "planes", tiny + "--point 0,4,0,30 --technique pcf+virtual --converge 4", 25);
     add("cascades_layered", "planes", small + "--technique pcf+cascades --set cascades.pass=layered");
     for (const char* filter : {"vsm", "lvsm", "esm", "evsm"}) { // msm: spot_msm has the same module
         add(std::string("cascades_") + filter, "planes", small + "--technique " + filter + "+cascades");

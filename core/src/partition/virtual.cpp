@@ -86,7 +86,7 @@ void VirtualPartition::divide(const Input& input, std::size_t light)
     const std::uint64_t most = std::max<std::uint64_t>(found.texels / (std::uint64_t{found.side} * found.side), 1);
     tree_.divide({roots_, points_, boxes_, side - 2.0 * border, border,
                   tileMarginTexels(static_cast<double>(options.reach_texels())), spread.spread, spread.slant,
-                  static_cast<std::uint32_t>(most), memory.taken});
+                  static_cast<std::uint32_t>(most), memory.taken, input.rested});
     memory.taken.assign(tree_.taken().begin(), tree_.taken().end());
     namePages(memory, found);
 }

@@ -38,6 +38,7 @@ public:
         std::span<const std::uint32_t> receivers; // that the camera sees
         const Sight& sight;
         const Light& light;
+        std::uint32_t rested = 0; // frames in which nothing changed, except for requests
     };
 
     /// The lights of a frame. Those that are gone are forgotten, and nobody has pages yet.
