@@ -52,6 +52,7 @@ ITEMS = {
                                               "core/include/", "pack/include/", "c/", "vulkan/include/", "vulkan/classics/"), built=True),
     "fuzz": Item("make -s fuzz JOBS=$JOBS FUZZ_SECONDS=60", parts=("scene/", "image/", "truth/"),
                  paths=("tests/fuzz/", "tools/fuzz.sh", "app/src/preset", "app/src/setting", "app/src/bench_figures")),
+    "kit": Item("make -s kit-check BUILT=1", paths=("kit/", "tests/kit/", "shaders/"), built=True),
     "roots": Item("make -s package-test JOBS=$JOBS", needs="debootstrap", takes_turns=False),
     "bare": Item("tools/bare_root_test.sh", needs="debootstrap", takes_turns=False),
     # In build/, which `make check-all` has by then.

@@ -11,7 +11,7 @@
 
 // The camera stands and nothing moved: then a pixel is joined with itself alone, and what follows for others need not be
 // compiled [drivers: both-sides].
-layout(constant_id = 0) const bool kAtRest = false;
+layout(constant_id = 0) const bool kAtRest = false; // what was seen before lies at the same pixel
 
 layout(set = 0, binding = 0, std140) uniform Constants
 {

@@ -224,6 +224,10 @@ class Configured(Case):
         self.assertLess(set(library), set(self.passes(run(tool, "--list")).split()))
         site = self.passes(run(tool, "--list", "--only", "site")).split()
         self.assertEqual(set(self.passes(run(tool, "--list", "--without", "site")).split()), set(self.passes(run(tool, "--list")).split()) - set(site))
+        kit = self.passes(run(tool, "--list", "--only", "kit")).split()
+        self.assertEqual(kit, ["nodejs", "npm"])
+        self.assertEqual(set(self.passes(run(tool, "--list", "--without", "site", "--without", "kit")).split()),
+                         set(self.passes(run(tool, "--list")).split()) - set(site) - set(kit))
         self.fails(run(tool, "--list", "--only", "volcano"), 'nothing in section "volcano"; it has these: library,')
 
 
