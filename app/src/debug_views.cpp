@@ -19,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 namespace gnomon::app {
 namespace {
@@ -94,11 +95,10 @@ Image8 layersPicture(const Drawn& drawn)
 }
 
 /// The map with the meaning of each texel as it is read: metres along the light, or the id with filter id. For lvsm it
-/// is the first layer; filters that blur have it blurred.
-lab::MapPanel panelOf(const Drawn& drawn, const ResolvedOptions& options, const View& view)
+/// is the first layer; filters that blur have it blurred. `map`: the image that it lies in.
+lab::MapPanel panelOf(const ImageF& map, const ResolvedOptions& options, const View& view)
 {
     const Tile& tile = view.place.tile;
-    const ImageF map = drawn.renderer.readMap(tile.layer * imageLayersPerMap(options.filter(), options.moments()));
     const bool has_ids = options.filter() == Filter::id;
     lab::MapPanel panel{"", ImageF(tile.width, tile.height, 1)};
     for (std::uint32_t y = 0; y < tile.height; ++y) {
@@ -137,9 +137,14 @@ Image8 mapsPicture(const Drawn& drawn)
     const std::string& name = drawn.shot.lights[drawn.light].name;
     const bool has_ids = options.filter() == Filter::id;
     std::vector<lab::MapPanel> panels;
+    std::map<std::uint32_t, ImageF> images; // by Tile::layer: hundreds of maps may lie in one
     for (const View& view : views) {
-        if (view.place.tile.width > 0) {
-            panels.push_back(panelOf(drawn, options, view));
+        if (const Tile& tile = view.place.tile; tile.width > 0) {
+            if (!images.contains(tile.layer)) {
+                const std::uint32_t layers = imageLayersPerMap(options.filter(), options.moments());
+                images.emplace(tile.layer, drawn.renderer.readMap(tile.layer * layers));
+            }
+            panels.push_back(panelOf(images.at(tile.layer), options, view));
             panels.back().name = fmt::format("{}, map {} of {}", name, panels.size(), views.size());
         }
     }

@@ -26,17 +26,20 @@ std::vector<Settings> techniquesOf(const Settings& settings)
 /// A mean over frames needs more than one, and pages follow the edges of earlier frames.
 void noteFrames(Shot& shot, const Settings& settings)
 {
+    const bool plans = settings.subcommand == kPlan && settings.shadow.technique.soften != Soften::converge;
     const bool draws = settings.subcommand == kCompare || (settings.subcommand == kRender && !settings.truth);
-    if (!draws || settings.converge != 1 || settings.frames) {
+    if (!(draws || plans) || settings.converge != 1 || settings.frames) {
         return;
     }
     const std::vector<Settings> techniques = techniquesOf(settings);
     const auto learns = std::ranges::find_if(techniques, &Settings::learnsFromFrames);
     if (learns != techniques.end()) {
-        shot.notices.push_back(fmt::format("{}, and this is one frame; --converge N draws N at rest",
+        shot.notices.push_back(fmt::format("{}, and this is {}",
                                            learns->shadow.technique.soften == Soften::converge
                                                ? "soften converge averages frames"
-                                               : "partition virtual has pages by what the frames before showed"));
+                                               : "partition virtual has pages by what the frames before showed",
+                                           plans ? "the plan of a first frame"
+                                                 : "one frame; --converge N draws N at rest"));
     }
 }
 

@@ -52,7 +52,7 @@ Pixel pixelAt(ivec2 place, vec3 toward)
     return pixel;
 }
 
-// By how much visibility changes to the next pixel on the same surface.
+// By how much visibility changes to the next pixel on the same surface, for which the way to the light is the same.
 float changeTo(ivec2 place, Pixel pixel, vec3 toward)
 {
     Pixel next = pixelAt(min(place, numbers.size.xy - 1), toward);
@@ -84,7 +84,7 @@ void main()
                 // Of a cell without an edge its middle.
                 if (here > steepest || (place == middle && steepest == 0.0)) {
                     steepest = here;
-                    found = vec4(vec2(place) + 0.5, texelFetch(depths, place, 0).r, edge);
+                    found = vec4(vec2(place) + 0.5, texelFetch(depths, place, 0).r, 0.0);
                 }
             }
         }

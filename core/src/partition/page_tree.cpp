@@ -138,12 +138,8 @@ void PageTree::addQuarter(const Input& input, std::uint32_t parent, const PageKe
     node.first_point = first;
     node.point_count = count;
     node.served = nodes_[parent].served;
-    const Node above = nodes_[parent];
-    if (!listCasters(input, above, node)) {
-        return;
-    }
     const double gain = gainOf(input, node);
-    if (!(gain > 0.0)) {
+    if (!(gain > 0.0) || !listCasters(input, nodes_[parent], node)) {
         return;
     }
     const auto index = static_cast<std::uint32_t>(nodes_.size());
