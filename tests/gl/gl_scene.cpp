@@ -31,6 +31,14 @@ void main()
 {
     gl_FragDepth = clamp(metric, 0.0, 1.0);
 })";
+// gnomonCasterTexel() where a texel, or its half, is one number.
+constexpr const char* kColour = R"(#version 450
+layout(location = 0) sample in float metric;
+layout(location = 0) out vec4 stored;
+void main()
+{
+    stored = vec4(clamp(metric, 0.0, 1.0));
+})";
 
 GLuint programOf(const char* fragment)
 {
@@ -73,7 +81,7 @@ GLuint textureOf(GLenum format, GLenum channels, GLenum type, VkExtent2D size, c
 
 } // namespace
 
-GlScene::GlScene(Scene scene_in) : scene(std::move(scene_in)), programs_{programOf(kPlain), programOf(kMetric)}
+GlScene::GlScene(Scene scene_in) : scene(std::move(scene_in)), programs_{programOf(kPlain), programOf(kMetric), programOf(kColour)}
 {
     const TestMesh mesh = testMesh();
     glCreateVertexArrays(1, &vertices_);
@@ -105,7 +113,7 @@ void GlScene::draw(const gl::MapPass& pass)
     const bool orthographic = pass.view->projection.orthographic;
     const pack::CasterRows rows(*pass.view);
     const auto transforms = scene.transforms();
-    glUseProgram(programs_[pass.formats.write_frag_depth ? 1 : 0]);
+    glUseProgram(programs_[pass.formats.colour != 0 ? 2 : pass.formats.write_frag_depth ? 1 : 0]);
     glBindVertexArray(vertices_);
     for (const std::uint32_t object : pass.casters) {
         std::array<glm::vec4, 5> data;

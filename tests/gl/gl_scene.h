@@ -26,7 +26,7 @@ public:
 private:
     void draw(const gl::MapPass& pass);
 
-    GLuint programs_[2] = {}; // the rasteriser's depth; the metric's
+    GLuint programs_[3] = {}; // the rasteriser's depth; the metric as depth; as colour
     GLuint vertices_ = 0;
     GLuint depth_ = 0;
     GLuint normal_ = 0;
