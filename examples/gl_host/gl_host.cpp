@@ -36,10 +36,14 @@ bool makeContext()
         return false;
     }
     eglBindAPI(EGL_OPENGL_API);
-    constexpr EGLint kWanted[] = {EGL_CONTEXT_MAJOR_VERSION,       4,
-                                  EGL_CONTEXT_MINOR_VERSION,       5,
-                                  EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                  EGL_CONTEXT_OPENGL_DEBUG,        EGL_TRUE,
+    constexpr EGLint kWanted[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                  4,
+                                  EGL_CONTEXT_MINOR_VERSION,
+                                  5,
+                                  EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                  EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                  EGL_CONTEXT_OPENGL_DEBUG,
+                                  EGL_TRUE,
                                   EGL_NONE};
     const EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kWanted);
     if (context == EGL_NO_CONTEXT || eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE) {
@@ -161,8 +165,8 @@ struct Drawer {
         glBindVertexArray(no_vertices);
         for (std::size_t i = 0; i < scene.centres.size(); ++i) {
             const glm::dmat4 place = glm::translate(glm::dmat4(1.0), glm::dvec3(scene.centres[i]));
-            const glm::mat4 rows(glm::transpose(scene.frame.camera.clip_from_world *
-                                                glm::scale(place, glm::dvec3(scene.halves[i]))));
+            const glm::mat4 rows(
+                glm::transpose(scene.frame.camera.clip_from_world * glm::scale(place, glm::dvec3(scene.halves[i]))));
             drawBox({rows[0], rows[1], rows[2], rows[3], {}});
         }
     }

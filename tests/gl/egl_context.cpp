@@ -10,10 +10,11 @@
 namespace gnomon::test {
 namespace {
 
-void APIENTRY hear(GLenum source, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* message, const void* user)
+void APIENTRY hear(GLenum source, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* message,
+                   const void* user)
 {
-    const bool wrong = type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR ||
-                       severity == GL_DEBUG_SEVERITY_HIGH;
+    const bool wrong =
+        type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR || severity == GL_DEBUG_SEVERITY_HIGH;
     // Mesa's compiler warns of every variable that it cannot prove to be written, and takes that for high severity.
     const bool guess = source == GL_DEBUG_SOURCE_SHADER_COMPILER && type != GL_DEBUG_TYPE_ERROR;
     if (wrong && !guess) {
@@ -38,10 +39,14 @@ EglContext::EglContext()
         return;
     }
     eglBindAPI(EGL_OPENGL_API);
-    constexpr EGLint kAttributes[] = {EGL_CONTEXT_MAJOR_VERSION,       4,
-                                      EGL_CONTEXT_MINOR_VERSION,       5,
-                                      EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                      EGL_CONTEXT_OPENGL_DEBUG,        EGL_TRUE,
+    constexpr EGLint kAttributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                      4,
+                                      EGL_CONTEXT_MINOR_VERSION,
+                                      5,
+                                      EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                      EGL_CONTEXT_OPENGL_DEBUG,
+                                      EGL_TRUE,
                                       EGL_NONE};
     EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kAttributes);
     if (context == EGL_NO_CONTEXT || eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE) {

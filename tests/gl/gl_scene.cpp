@@ -59,7 +59,8 @@ GLuint programOf(const char* fragment)
     return program;
 }
 
-template <class T> GLuint bufferOf(const std::vector<T>& data)
+template <class T>
+GLuint bufferOf(const std::vector<T>& data)
 {
     GLuint buffer = 0;
     glCreateBuffers(1, &buffer);
@@ -81,7 +82,8 @@ GLuint textureOf(GLenum format, GLenum channels, GLenum type, VkExtent2D size, c
 
 } // namespace
 
-GlScene::GlScene(Scene scene_in) : scene(std::move(scene_in)), programs_{programOf(kPlain), programOf(kMetric), programOf(kColour)}
+GlScene::GlScene(Scene scene_in)
+    : scene(std::move(scene_in)), programs_{programOf(kPlain), programOf(kMetric), programOf(kColour)}
 {
     const TestMesh mesh = testMesh();
     glCreateVertexArrays(1, &vertices_);

@@ -95,8 +95,7 @@ TEST(GlMasksAre, toldFromThoseOfAnotherSun)
     MaskCase{FILTER "_sun", "map-size=256 partition=single filter=" FILTER, "sun", EXACT},                             \
         MaskCase{FILTER "_cascades", "map-size=256 partition=cascades filter=" FILTER, "sun", EXACT},                  \
         MaskCase{FILTER "_spot", "map-size=256 partition=single filter=" FILTER, "spot", EXACT},                       \
-        MaskCase{FILTER "_cube", "map-size=256 partition=cube filter=" FILTER, "lamp", EXACT},                         \
-        MaskCase                                                                                                       \
+        MaskCase{FILTER "_cube", "map-size=256 partition=cube filter=" FILTER, "lamp", EXACT}, MaskCase                \
     {                                                                                                                  \
         FILTER "_multi", "map-size=256 partition=multi filter=" FILTER, "lamp", EXACT                                  \
     }

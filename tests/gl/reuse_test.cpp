@@ -118,11 +118,27 @@ TEST(GlState, IsAsTheHostHadIt)
     const Plan& plan = planner.plan(vulkan.scene.frameOf(lightsOf("sun spot")));
     const auto state = [] {
         std::vector<GLint> values;
-        for (const GLenum name :
-             {GL_CULL_FACE, GL_DEPTH_TEST, GL_DEPTH_CLAMP, GL_STENCIL_TEST, GL_BLEND, GL_SCISSOR_TEST, GL_MULTISAMPLE,
-              GL_DEPTH_FUNC, GL_DEPTH_WRITEMASK, GL_CURRENT_PROGRAM, GL_VERTEX_ARRAY_BINDING, GL_CLIP_ORIGIN,
-              GL_CLIP_DEPTH_MODE, GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING, GL_VIEWPORT,
-              GL_SCISSOR_BOX, GL_COLOR_WRITEMASK, GL_BLEND_EQUATION_RGB, GL_BLEND_SRC_RGB, GL_BLEND_DST_ALPHA}) {
+        for (const GLenum name : {GL_CULL_FACE,
+                                  GL_DEPTH_TEST,
+                                  GL_DEPTH_CLAMP,
+                                  GL_STENCIL_TEST,
+                                  GL_BLEND,
+                                  GL_SCISSOR_TEST,
+                                  GL_MULTISAMPLE,
+                                  GL_DEPTH_FUNC,
+                                  GL_DEPTH_WRITEMASK,
+                                  GL_CURRENT_PROGRAM,
+                                  GL_VERTEX_ARRAY_BINDING,
+                                  GL_CLIP_ORIGIN,
+                                  GL_CLIP_DEPTH_MODE,
+                                  GL_DRAW_FRAMEBUFFER_BINDING,
+                                  GL_READ_FRAMEBUFFER_BINDING,
+                                  GL_VIEWPORT,
+                                  GL_SCISSOR_BOX,
+                                  GL_COLOR_WRITEMASK,
+                                  GL_BLEND_EQUATION_RGB,
+                                  GL_BLEND_SRC_RGB,
+                                  GL_BLEND_DST_ALPHA}) {
             GLint value[4] = {};
             glGetIntegerv(name, value);
             values.insert(values.end(), std::begin(value), std::end(value));
@@ -170,8 +186,8 @@ TEST(GlMisuse, IsAnErrorWithASentence)
     const Frame frame = vulkan.scene.frameOf(suns);
     for (const char* const refused :
          {"partition=sdsm", "filter=depth-id", "filter=id", "filter=smoothies", "soften=smoothies", "soften=converge",
-          "motion=step-alternate", "caster-faces=midpoint", "mask-size=half", "partition=cascades cascades.pass=layered",
-          "filter=vsm blur=gaussian blur.path=fragment"}) {
+          "motion=step-alternate", "caster-faces=midpoint", "mask-size=half",
+          "partition=cascades cascades.pass=layered", "filter=vsm blur=gaussian blur.path=fragment"}) {
         Planner planner(optionsFrom(refused));
         const Plan& plan = planner.plan(frame);
         EXPECT_THROW((void)by_gl.renderer.prepare(plan, {64, 48}), Error) << refused;

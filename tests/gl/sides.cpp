@@ -27,12 +27,17 @@ Light lightCalled(const std::string& name)
 
 } // namespace
 
-std::vector<std::byte> GlSide::draw(const Plan& plan)
+void GlSide::run(const Plan& plan)
 {
-    inputs = scene.upload(tracePicture(makeScene(), plan.made_for.camera, screen));
     (void)renderer.prepare(plan, inputs.size_px);
     renderer.drawMaps(plan, scene.callback());
     renderer.drawMask(plan, inputs);
+}
+
+std::vector<std::byte> GlSide::draw(const Plan& plan)
+{
+    see(plan.made_for.camera);
+    run(plan);
     return GlScene::read(renderer.mask(), plan.mask_layers);
 }
 

@@ -10,7 +10,9 @@
 namespace gnomon::test {
 
 struct VulkanSide {
-    explicit VulkanSide(VkExtent2D screen) : scene(gpu(), screen), drawing(gpu(), scene.mesh()) {}
+    explicit VulkanSide(VkExtent2D screen, Gpu& device = gpu()) : scene(device, screen), drawing(device, scene.mesh())
+    {
+    }
 
     PlannedScene scene;
     Drawing drawing;
@@ -19,7 +21,11 @@ struct VulkanSide {
 struct GlSide {
     explicit GlSide(VkExtent2D screen_in) : screen(screen_in) {}
 
-    /// All layers of the mask, one after the other.
+    /// The depths that this camera sees, from the same numbers that the Vulkan side has.
+    void see(const Camera& camera) { inputs = scene.upload(tracePicture(makeScene(), camera, screen)); }
+    /// Draws maps and mask.
+    void run(const Plan& plan);
+    /// see() and run(); all layers of the mask, one after the other.
     std::vector<std::byte> draw(const Plan& plan);
 
     VkExtent2D screen;

@@ -94,9 +94,13 @@ class Installed(Case):
 
     def test_component_that_is_unknown_is_named(self):
         self.fails(self.project("find_package(gnomon REQUIRED COMPONENTS core volcano)"),
-                   'gnomon has no component "volcano"; it has core, pack, vulkan, vulkan_classics, shaders')
+                   'gnomon has no component "volcano"; it has core, pack, vulkan, vulkan_classics, ' +
+                   ("gl, shaders" if self.has_gl() else "shaders"))
         self.passes(self.project("find_package(gnomon REQUIRED OPTIONAL_COMPONENTS volcano core)",
                                  "if(gnomon_volcano_FOUND OR NOT gnomon_core_FOUND)", "message(FATAL_ERROR no)", "endif()"))
+
+    def has_gl(self) -> bool:
+        return any(self.prefix.rglob("gnomon-gl.cmake"))
 
     def test_another_minor_version_is_refused(self):
         for version in ("0.0", "0.2", "1.0", "0.1.9"):
@@ -134,6 +138,13 @@ class Installed(Case):
         self.passes(run(OPTIONS.cxx, "-std=c++20", build / "classics.cpp", "-o", build / "classics",
                         *flags("--cflags", "--libs", "gnomon-vulkan_classics")))
         self.passes(run(build / "classics"))
+        if self.has_gl():
+            text = ("#include <gnomon/gl/shadow_renderer.h>\nint main()\n{\n    try {\n        gnomon::gl::ShadowRenderer r({});\n"
+                    "    } catch (const std::exception&) {\n        return 0;\n    }\n    return 1;\n}\n")
+            (build / "gl.cpp").write_text(text, encoding="utf-8")
+            self.passes(run(OPTIONS.cxx, "-std=c++20", build / "gl.cpp", "-o", build / "gl",
+                            *flags("--cflags", "--libs", "gnomon-gl")))
+            self.passes(run(build / "gl"))
         include = flags("--variable=includedir", "gnomon-shaders")[0]
         self.passes(run("glslc", "--target-env=vulkan1.3", "-DGNOMON_FILTER=GNOMON_FILTER_HARD", "-I", include,
                         CONSUMER / "visible.frag", "-o", build / "visible.spv"))
@@ -141,7 +152,7 @@ class Installed(Case):
                          ["0.1.0"] * 5)
 
     def test_examples(self):
-        for name in ("minimal_host", "forward_host"):
+        for name in ("minimal_host", "forward_host") + (("gl_host",) if self.has_gl() else ()):
             source, build = next(self.prefix.rglob(f"examples/{name}")), folder(name)
             self.passes(configure(source, build, self.found))
             self.passes(run("cmake", "--build", build))
