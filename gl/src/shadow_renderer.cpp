@@ -19,6 +19,14 @@ bool areAlike(const ResolvedOptions& a, const ResolvedOptions& b)
     return a.filter() == b.filter() && a.format() == b.format() && (!a.filterable() || a.moments() == b.moments());
 }
 
+glm::uvec2 sizeOf(const Context& context, GLuint texture)
+{
+    GLint size[2] = {};
+    context.gl.GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_WIDTH, &size[0]);
+    context.gl.GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_HEIGHT, &size[1]);
+    return {size[0], size[1]};
+}
+
 } // namespace
 
 struct ShadowRenderer::Impl {
@@ -130,6 +138,9 @@ void ShadowRenderer::drawMaps(const Plan& plan, const DrawCasters& draw)
     if (!draw) {
         throw Error(kTried, "the callback is empty", "hand in one that draws casters");
     }
+    if (impl.half_done) {
+        impl.lose();
+    }
     const KeptState state(impl.context);
     const std::span<const pack::ViewWork> work = impl.notes.workFor(plan);
     impl.half_done = true;
@@ -161,6 +172,11 @@ void ShadowRenderer::drawMask(const Plan& plan, const MaskInputs& inputs)
     if (inputs.depth == 0) {
         throw Error(kTried, "the depth is 0", "hand in the texture of the camera's depth");
     }
+    for (const std::uint32_t texture : {inputs.depth, inputs.normal, inputs.smooth, inputs.object_id}) {
+        if (texture != 0 && sizeOf(impl.context, texture) != inputs.size_px) {
+            throw Error(kTried, "an input is no texture of MaskInputs::size_px", "hand in textures of the mask's size");
+        }
+    }
     if (plan.made_for.lights.size() != plan.lights.size()) {
         throw Error(kTried, "the frame that the plan was made for has other lights", "hand in the planner's own plan");
     }
@@ -170,7 +186,7 @@ void ShadowRenderer::drawMask(const Plan& plan, const MaskInputs& inputs)
 
 void ShadowRenderer::reset()
 {
-    impl_->half_done = true;
+    impl_->lose();
 }
 
 TextureRef ShadowRenderer::mask() const

@@ -21,6 +21,8 @@ public:
     /// Fails the test for every error and every undefined behaviour that OpenGL has told of since the last call, and
     /// for errors of glGetError().
     void expectSilence();
+    /// Messages that a case has asked for.
+    void forget() { messages_.clear(); }
     void add(std::string message) { messages_.push_back(std::move(message)); }
 
 private:

@@ -109,6 +109,31 @@ TEST(GlReuse, GrownMapsTakeOverWhatWasDrawn)
     EglContext::instance().expectSilence();
 }
 
+constexpr GLenum kNames[] = {GL_CLIP_DISTANCE3,
+                             GL_DITHER,
+                             GL_CULL_FACE,
+                             GL_DEPTH_TEST,
+                             GL_DEPTH_CLAMP,
+                             GL_STENCIL_TEST,
+                             GL_BLEND,
+                             GL_SCISSOR_TEST,
+                             GL_MULTISAMPLE,
+                             GL_DEPTH_FUNC,
+                             GL_CURRENT_PROGRAM,
+                             GL_CLIP_ORIGIN,
+                             GL_VERTEX_ARRAY_BINDING,
+                             GL_CLIP_DEPTH_MODE,
+                             GL_DRAW_FRAMEBUFFER_BINDING,
+                             GL_VIEWPORT,
+                             GL_SCISSOR_BOX,
+                             GL_COLOR_WRITEMASK,
+                             GL_BLEND_SRC_RGB,
+                             GL_READ_FRAMEBUFFER_BINDING,
+                             GL_BLEND_DST_ALPHA,
+                             GL_DEPTH_RANGE,
+                             GL_BLEND_EQUATION_RGB,
+                             GL_DEPTH_WRITEMASK};
+
 TEST(GlState, IsAsTheHostHadIt)
 {
     GNOMON_NEEDS_EGL();
@@ -118,27 +143,7 @@ TEST(GlState, IsAsTheHostHadIt)
     const Plan& plan = planner.plan(vulkan.scene.frameOf(lightsOf("sun spot")));
     const auto state = [] {
         std::vector<GLint> values;
-        for (const GLenum name : {GL_CULL_FACE,
-                                  GL_DEPTH_TEST,
-                                  GL_DEPTH_CLAMP,
-                                  GL_STENCIL_TEST,
-                                  GL_BLEND,
-                                  GL_SCISSOR_TEST,
-                                  GL_MULTISAMPLE,
-                                  GL_DEPTH_FUNC,
-                                  GL_DEPTH_WRITEMASK,
-                                  GL_CURRENT_PROGRAM,
-                                  GL_VERTEX_ARRAY_BINDING,
-                                  GL_CLIP_ORIGIN,
-                                  GL_CLIP_DEPTH_MODE,
-                                  GL_DRAW_FRAMEBUFFER_BINDING,
-                                  GL_READ_FRAMEBUFFER_BINDING,
-                                  GL_VIEWPORT,
-                                  GL_SCISSOR_BOX,
-                                  GL_COLOR_WRITEMASK,
-                                  GL_BLEND_EQUATION_RGB,
-                                  GL_BLEND_SRC_RGB,
-                                  GL_BLEND_DST_ALPHA}) {
+        for (const GLenum name : kNames) {
             GLint value[4] = {};
             glGetIntegerv(name, value);
             values.insert(values.end(), std::begin(value), std::end(value));
@@ -146,6 +151,7 @@ TEST(GlState, IsAsTheHostHadIt)
         return values;
     };
     glEnable(GL_CULL_FACE);
+    glEnable(GL_CLIP_DISTANCE3);
     glEnable(GL_BLEND);
     glEnable(GL_STENCIL_TEST);
     glDepthFunc(GL_GREATER);
@@ -166,7 +172,7 @@ TEST(GlState, IsAsTheHostHadIt)
     EXPECT_THROW(by_gl.renderer.drawMaps(plan, fail), std::runtime_error);
     EXPECT_EQ(state(), before);
     EXPECT_EQ(by_gl.draw(plan), drawn) << "after a call that threw";
-    for (const GLenum name : {GL_CULL_FACE, GL_BLEND, GL_STENCIL_TEST}) {
+    for (const GLenum name : {GL_CULL_FACE, GL_BLEND, GL_STENCIL_TEST, GL_CLIP_DISTANCE3}) {
         glDisable(name);
     }
     glDepthFunc(GL_LESS);
@@ -203,6 +209,11 @@ TEST(GlMisuse, IsAnErrorWithASentence)
     inputs = by_gl.inputs;
     inputs.size_px.x += 1;
     EXPECT_THROW(by_gl.renderer.drawMask(plan, inputs), Error);
+    inputs = by_gl.inputs;
+    inputs.normal = inputs.depth + 1000; // no texture
+    EXPECT_THROW(by_gl.renderer.drawMask(plan, inputs), Error);
+    EXPECT_NE(glGetError(), static_cast<GLenum>(GL_NO_ERROR)) << "OpenGL says so, too";
+    EglContext::instance().forget();
     plan.views[0].place.tile.x = 1U << 20;
     EXPECT_THROW((void)by_gl.renderer.prepare(plan, {64, 48}), Error);
     EXPECT_THROW(gl::ShadowRenderer({nullptr, {}}), Error);

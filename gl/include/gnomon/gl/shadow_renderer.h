@@ -101,10 +101,10 @@ struct MapReuse {
 /// call, the destructor's too.
 ///
 /// A call restores the state that it changes: framebuffers, program, vertex array, viewport, scissor, clip control,
-/// depth, blending and write masks of draw buffer 0, and the switches of GL_DEPTH_TEST and its like. It leaves changed,
-/// to be bound anew by who needs them: texture units 0 to 11 with their samplers, image units 0 to 2, the uniform
-/// buffers 0, 4, 8 and 13, the storage buffers 1 to 5 and 12, and GL_DISPATCH_INDIRECT_BUFFER never. Errors that
-/// glGetError() holds when prepare() is called are lost.
+/// depth, blending and write masks of draw buffer 0, polygon mode and the switches of GL_DEPTH_TEST and its like. It
+/// leaves changed, to be bound anew by who needs them: texture units 0 to 11 with their samplers, image units 0 to 2,
+/// the uniform buffers 0, 4, 8 and 13, and the storage buffers 1 to 5 and 12. Errors that glGetError() holds when
+/// prepare() is called are lost.
 ///
 /// Throws Error from prepare() for what it does not do, with a sentence: partition sdsm and paraboloid, classic filters
 /// (id, depth-id, smoothies, volumes), soften smoothies and converge, motion step-alternate, caster-faces midpoint,
@@ -128,9 +128,9 @@ public:
     /// prepare() made, and for a null callback.
     void drawMaps(const Plan& plan, const DrawCasters& draw);
     /// Draws the mask: every layer, every channel, 1 = fully lit; its values are those of vulkan::ShadowRenderer. Throws
-    /// Error for such a plan too, and where the depth is 0 or the size another one than prepare()'s.
+    /// Error for such a plan too, and where the depth is 0, or the size of an input another one than prepare()'s.
     void drawMask(const Plan& plan, const MaskInputs& inputs);
-    /// The maps' textures are lost, or a frame's commands were: all maps are drawn again.
+    /// What maps hold is lost: the next drawMaps() draws all of them again.
     void reset();
 
     /// R8 for one light, else RGBA8, one layer per four lights and one for each coloured light
