@@ -17,7 +17,6 @@
 #include <optional>
 #include <span>
 
-/// The OpenGL backend.
 namespace gnomon::gl {
 
 /// How a ShadowRenderer is made.
@@ -115,6 +114,7 @@ class GNOMON_API ShadowRenderer {
 public:
     /// Throws Error when the context is older than OpenGL 4.5, lacks a function, or has a limit that is too low.
     explicit ShadowRenderer(const ShadowRendererOptions& options);
+    /// Deletes its textures, buffers and programs.
     ~ShadowRenderer();
     ShadowRenderer(const ShadowRenderer&) = delete;
     ShadowRenderer& operator=(const ShadowRenderer&) = delete;

@@ -100,11 +100,11 @@ private:
 
 /// A pass that makes two levels of blocks of a map's depths, or the last one alone.
 struct BlockPass {
-    std::array<std::int32_t, 4> first{}; // push constants of depth_blocks.comp
-    std::array<std::int32_t, 4> last{};
-    std::uint32_t first_level = 0; // mip level that is made, the next with it. 0: from the maps' texels
-    std::uint32_t groups_x = 0;
-    std::uint32_t groups_y = 0;
+    std::array<std::int32_t, 4> first{}; // push constant of depth_blocks.comp: the first group, the layer, levels made
+    std::array<std::int32_t, 4> last{};  // the next: the last texel, or block, to be read, along x and y
+    std::uint32_t first_level = 0;       // mip level that is made, the next with it. 0: from the maps' texels
+    std::uint32_t groups_x = 0;          // groups to dispatch along x
+    std::uint32_t groups_y = 0;          // groups to dispatch along y
 };
 /// How many passes make `levels` levels (blockLevels()).
 [[nodiscard]] GNOMON_API std::uint32_t blockPassCount(std::uint32_t levels);
