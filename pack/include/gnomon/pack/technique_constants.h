@@ -58,12 +58,12 @@ struct MaskConstants {
     std::uint32_t takes_away = 0;       // for a compact mask, a draw that shares: it draws the light that is lost
     std::uint32_t paraboloid = 0;       // views may be ViewProjection::paraboloid
     std::uint32_t has_ids = 0;          // MaskImages::ids
-    std::uint32_t slices_alone = 0;     // by MaskPipelineKey::told_apart
+    std::uint32_t slices_alone = 0;     // ToldApart::slices
     std::uint32_t paired = 0;           // MaskDraw::paired; of modules for one view alone
-    std::uint32_t pixels_per_texel = 1; // DrawnAs::half: 2
+    std::uint32_t pixels_per_texel = 1; // 2 where one pixel of each 2 x 2 is drawn (MaskSize::half)
     std::uint32_t layered = 0;          // views may be ViewServes::layered
     std::uint32_t orthographic = 0;     // MaskDraw::orthographic
-    std::uint32_t settles = 0;          // DrawnAs::settled
+    std::uint32_t settles = 0;          // draws the pixels that blocks settle, and leaves others
     std::uint32_t pages = 0;            // a point's view is found by fillPageTable()
 
     bool operator==(const MaskConstants&) const = default;
