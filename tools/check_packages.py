@@ -32,7 +32,7 @@ CHECKS = (*TESTS, "checks (.ci/run)")
 SITE = (*CHECKS, "site")
 # (beginning of a path, which sections its files may use); the longest counts. Objects lie in the folders of their targets.
 SECTIONS = [("", CHECKS), ("cmake/", PROGRAM), ("core/", LIBRARY), ("pack/", LIBRARY), ("vulkan/", LIBRARY), ("shaders/", LIBRARY),
-            ("examples/", LIBRARY), *((f"{name}/", PROGRAM) for name in ("files", "image", "scene", "worlds", "truth", "host", "lab", "app")),
+            ("gl/", TESTS), ("examples/", LIBRARY), ("examples/gl_host/", TESTS), *((f"{name}/", PROGRAM) for name in ("files", "image", "scene", "worlds", "truth", "host", "lab", "app")),
             ("tests/", TESTS), ("tests/fuzz/", CHECKS), ("tests/site/", SITE), ("tools/make_", SITE), ("tools/site_pages.py", SITE)]
 FOLDERS = ("/usr/bin", "/usr/sbin", "/bin", "/sbin", "/usr/games")
 WORD = r"([A-Za-z][\w.+-]*)(?=[\s)\"';|&]|$)"
