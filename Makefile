@@ -39,13 +39,15 @@ help:
 	@echo "make package-test install them in a bare Debian root, and build and run the examples there (needs root, minutes)"
 	@echo "make bare-test    make demo and make test in a bare Debian root (needs root and a mirror, an hour)"
 	@echo "make site    documents, gallery and API reference as a site, in build/site/; install what it takes"
+	@echo "make kit     every shader pass as SPIR-V, GLSL, ESSL, HLSL, MSL and WGSL, with passes.json, in out/kit/"
+	@echo "make kit-check    make it twice, and hand it to the compilers of each dialect"
 	@echo "make gallery draw the gallery and its films anew, into docs/ (minutes)"
 	@echo "make films   the films alone"
 	@echo "make clean   remove build folders and out/"
 
 .PHONY: packages
 packages:
-	@tools/install_packages.sh --without site packages.txt
+	@tools/install_packages.sh --without site --without kit --without "compilers of the kit" packages.txt
 
 .PHONY: configure
 configure: packages
@@ -155,6 +157,25 @@ site-packages:
 .PHONY: site
 site: site-packages
 	@tools/make_site.py build/site
+
+# Other graphics APIs' shaders (docs/kit.md). npm installs in build/kit_npm what makes WGSL.
+.PHONY: kit-packages
+kit-packages: packages
+	@tools/install_packages.sh --only kit packages.txt
+
+.PHONY: kit
+kit: kit-packages
+	@$(CONFIGURE_RELEASE) $(CMAKE_FLAGS)
+	@cmake --build build --target gnomon_spirv_modules gnomon_classic_spirv_modules -j $(JOBS)
+	@JOBS=$(JOBS) kit/make_kit.py build out/kit
+
+.PHONY: kit-check
+kit-check: kit-packages
+	@tools/install_packages.sh --only "compilers of the kit" packages.txt
+ifndef BUILT
+	@$(MAKE) -s build
+endif
+	@ctest --test-dir build --output-on-failure --no-tests=error -L kit
 
 .PHONY: gallery
 gallery: configure site-packages

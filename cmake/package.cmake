@@ -31,7 +31,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libgnomon-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "real-time soft shadows - development files\n${about}
 
-C++ and GLSL headers, files for CMake and pkg-config, and examples.")
+C, C++ and GLSL headers, files for CMake and pkg-config, and examples.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "${CPACK_DEBIAN_LIBRARY_PACKAGE_NAME} ${same_version}, libglm-dev")
 if(GNOMON_VULKAN)

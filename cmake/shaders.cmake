@@ -39,7 +39,8 @@ endfunction()
 # gnomon_shaders(TARGET [NAMESPACE NAME] ENTRIES...): makes an object library that embeds each entry as `const std::span<const
 # std::uint32_t> NAME::ENTRY` (with dots as underscores), declared in the generated header "TARGET.h", which also has all of
 # them in `NAME::all_of_TARGET` and their names ("pass.frag") in `NAME::names_of_TARGET`. Target TARGET_modules makes the SPIR-V files
-# TARGET/NAME.spv alone. NAME is TARGET if not given. An entry is a source, or one of gnomon_shader_variants().
+# TARGET/NAME.spv alone; TARGET/TARGET.txt lists them as "NAME:SOURCE:DEFINE,DEFINE". NAME is TARGET if not given. An entry is a
+# source, or one of gnomon_shader_variants().
 # Sources find gnomon's GLSL as "gnomon/visibility.glsl". Debug builds keep their lines and names in the SPIR-V, but for those
 # with sanitizers, which look at C++ alone.
 # GNOMON_SHADER_CACHE is a folder where modules are kept, and taken from by every build of the same sources; empty: none.
@@ -58,6 +59,7 @@ function(gnomon_shaders target)
     set(incs)
     set(ids)
     set(names)
+    set(listed)
     foreach(entry IN LISTS arg_UNPARSED_ARGUMENTS)
         set(defines)
         if(entry MATCHES "^([^:]+):([^:]+):(.*)$")
@@ -71,6 +73,8 @@ function(gnomon_shaders target)
         string(MAKE_C_IDENTIFIER ${name} id)
         list(APPEND ids ${id})
         list(APPEND names "\"${name}\"")
+        list(JOIN defines "," said)
+        string(APPEND listed "${name}:${source}:${said}\n")
         string(APPEND header "extern const std::span<const std::uint32_t> ${id};\n")
         string(APPEND words "constexpr std::uint32_t words_${id}[] =\n#include \"${name}.inc\"\n;\n")
         string(APPEND spans "const std::span<const std::uint32_t> ${id}{words_${id}};\n")
@@ -83,6 +87,7 @@ function(gnomon_shaders target)
     list(JOIN names ", " names)
     string(APPEND header "inline constexpr const char* names_of_${target}[${count}] = {${names}};\n")
     file(CONFIGURE OUTPUT ${dir}/${target}.h CONTENT "${header}}\n" @ONLY)
+    file(CONFIGURE OUTPUT ${dir}/${target}.txt CONTENT "${listed}" @ONLY)
     # One source for all: a compiler takes longer to start than to read a module's words.
     set(cpp "#include \"${target}.h\"\n${begin}namespace {\n${words}}\n${spans}}\n")
     file(CONFIGURE OUTPUT ${dir}/${target}.cpp CONTENT "${cpp}" @ONLY)

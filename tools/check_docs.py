@@ -5,7 +5,8 @@
 usage: check_docs.py [--write] ROOT [GNOMON]
 
 - links and pictures in every .md file lead to a file;
-- README's C++ block is what tests/docs/readme_snippet.cpp has between "README begin" and "README end";
+- a block of README.md is what tests/docs/readme_snippet.cpp has between "README begin" and "README end", and so are one of
+  docs/c.md and examples/c_host/c_host.c;
 - with the program GNOMON: the table of docs/cli.md is what its declarations make (--write puts it there), and every
   option in a `gnomon` command of a document is one of them;
 - what sources name as [drivers: NAME] are the lines of docs/drivers.md, and each line is named;
@@ -45,16 +46,21 @@ def broken_links(root: Path) -> list[str]:
     return found
 
 
+# A document, the source that is compiled, and the marks around what both have.
+SNIPPETS = [("README.md", "tests/docs/readme_snippet.cpp", "README"), ("docs/c.md", "examples/c_host/c_host.c", "docs/c.md")]
+
+
 def snippet_differences(root: Path) -> list[str]:
-    source = (root / "tests/docs/readme_snippet.cpp").read_text(encoding="utf-8")
-    marked = re.search(r"^[^\n]*README begin[^\n]*\n(.*?)^[^\n]*README end", source, re.DOTALL | re.MULTILINE)
-    if not marked:
-        return ['tests/docs/readme_snippet.cpp: no lines between "README begin" and "README end"']
-    code = textwrap.dedent(marked.group(1)).strip()
-    blocks = re.findall(r"```cpp\n(.*?)```", (root / "README.md").read_text(encoding="utf-8"), re.DOTALL)
-    if not any(block.strip() == code for block in blocks):
-        return ["README.md: no C++ block is what tests/docs/readme_snippet.cpp has between its marks"]
-    return []
+    found = []
+    for document, source, mark in SNIPPETS:
+        text = (root / source).read_text(encoding="utf-8")
+        marked = re.search(rf"^[^\n]*{mark} begin[^\n]*\n(.*?)^[^\n]*{mark} end", text, re.DOTALL | re.MULTILINE)
+        blocks = re.findall(r"```(?:c|cpp)\n(.*?)```", (root / document).read_text(encoding="utf-8"), re.DOTALL)
+        if not marked:
+            found.append(f'{source}: no lines between "{mark} begin" and "{mark} end"')
+        elif not any(block.strip() == textwrap.dedent(marked.group(1)).strip() for block in blocks):
+            found.append(f"{document}: no block is what {source} has between its marks")
+    return found
 
 
 def listed_by(gnomon: str) -> dict:

@@ -31,6 +31,8 @@ FOLDERS = [
     ("core/src/", ["core/include", "shaders/include", "core/src"]),
     ("pack/include/", ["pack/include", "core/include", "shaders/include"]),
     ("pack/src/", ["pack/include", "core/include", "shaders/include", "pack/src"]),
+    ("c/include/", ["c/include"]),
+    ("c/src/", ["c/include", "pack/include", "core/include", "shaders/include", "c/src"]),
     ("vulkan/include/", ["vulkan/include", "pack/include", "core/include", "shaders/include"]),
     ("vulkan/src/", ["vulkan/include", "pack/include", "core/include", "shaders/include", "vulkan/src"]),
     ("vulkan/classics/include/", ["vulkan/classics/include", "vulkan/include", "pack/include", "core/include", "shaders/include"]),

@@ -19,13 +19,14 @@ PROJECT_KINDS = [
     (r"^shaders/include/gnomon/shared/", "shared"),
     (r"^shaders/", "shader-lib"),
     (r"^core/include/gnomon/(error|geometry|world_range)\.h$", "core-geometry"),
+    (r"^c/include/", "c-public"),
     (r"^core/include/", "core-public"),
     (r"^pack/include/", "pack-public"),
     (r"^vulkan/include/", "vulkan-public"),
     (r"^gl/include/", "gl-public"),
     (r"^vulkan/classics/include/", "classics"),
     (r"^vulkan/src/", "backend"),
-    (r"^(core|pack|vulkan|gl)/", "private"),
+    (r"^(c|core|pack|vulkan|gl)/", "private"),
     (r"^(files|scene|worlds|image|host|truth|lab)/src/", "private"),
     (r"^lab/metrics", "metrics"),
     (r"^lab/score/(?!src/)", "score"),
@@ -71,6 +72,9 @@ RULES = [
     ("core/include/", {"std", "glm", "shared"}, "a public header shows nothing private; core knows no graphics, window or file"),
     ("core/", {"std", "glm", "core-geometry", "core-public", "shared"}, "core knows no graphics, window or file"),
     ("pack/", {"std", "glm", "core-geometry", "core-public", "shared"}, "pack knows no graphics, window or file"),
+    ("c/include/", {"std"}, "a header for C knows no C++"),
+    ("c/", {"std", "glm", "core-geometry", "core-public", "pack-public", "c-public", "shared"},
+     "the interface for C is made of public headers alone"),
     ("vulkan/include/", {"std", "glm", "core-geometry", "core-public", "pack-public", "vulkan-api"}, "a public header shows nothing private"),
     ("vulkan/", STD | PUBLIC | {"glm", "vulkan-api", "shared", "shader-lib", "spirv"}, "the backend knows core and shaders"),
     ("vulkan/classics/include/", {"std", "glm", "core-geometry", "core-public", "pack-public", "vulkan-public", "vulkan-api"},
@@ -97,13 +101,13 @@ RULES = [
     ("lab/", ABOVE | {"gd"}, "the lab knows public headers"),
     ("app/", ABOVE | {"app", "worlds", "cli", "text", "shared"}, "the program knows public headers, and widgets in app/src/view alone"),
     ("app/src/view/", ABOVE | {"app", "worlds", "imgui"}, "the window's panels are of Dear ImGui"),
-    ("examples/", STD | PUBLIC | {"gl-public", "glm", "vulkan-api", "graphics", "spirv", "shared", "shader-lib"},
+    ("examples/", STD | PUBLIC | {"c-public", "gl-public", "glm", "vulkan-api", "graphics", "spirv", "shared", "shader-lib"},
      "an example is an engine: it has the library's public headers and nothing else of ours"),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
-SUFFIXES = {".cpp", ".h", ".glsl", ".vert", ".frag", ".comp", ".geom"}
-PUBLIC_FOLDERS = ("core/include", "pack/include", "vulkan/include", "vulkan/classics/include", "gl/include", "shaders/include", "")
+SUFFIXES = {".c", ".cpp", ".h", ".glsl", ".vert", ".frag", ".comp", ".geom"}
+PUBLIC_FOLDERS = ("core/include", "pack/include", "c/include", "vulkan/include", "vulkan/classics/include", "gl/include", "shaders/include", "")
 
 
 def rule_for(path: str):

@@ -30,10 +30,13 @@ PROGRAM = (*LIBRARY, "program")
 TESTS = (*PROGRAM, "to run without a GPU", "tests and benchmarks")
 CHECKS = (*TESTS, "checks (.ci/run)")
 SITE = (*CHECKS, "site")
+KIT = (*CHECKS, "kit", "compilers of the kit")
 # (beginning of a path, which sections its files may use); the longest counts. Objects lie in the folders of their targets.
 SECTIONS = [("", CHECKS), ("cmake/", PROGRAM), ("core/", LIBRARY), ("pack/", LIBRARY), ("vulkan/", LIBRARY), ("shaders/", LIBRARY),
-            ("gl/", TESTS), ("examples/", LIBRARY), ("examples/gl_host/", TESTS), *((f"{name}/", PROGRAM) for name in ("files", "image", "scene", "worlds", "truth", "host", "lab", "app")),
-            ("tests/", TESTS), ("tests/fuzz/", CHECKS), ("tests/site/", SITE), ("tools/make_", SITE), ("tools/site_pages.py", SITE)]
+            ("gl/", TESTS), ("examples/", LIBRARY), ("examples/gl_host/", TESTS),
+            *((f"{name}/", PROGRAM) for name in ("files", "image", "scene", "worlds", "truth", "host", "lab", "app")),
+            ("tests/", TESTS), ("tests/fuzz/", CHECKS), ("tests/site/", SITE), ("kit/", KIT), ("tests/kit/", KIT),
+            ("tools/make_", SITE), ("tools/site_pages.py", SITE)]
 FOLDERS = ("/usr/bin", "/usr/sbin", "/bin", "/sbin", "/usr/games")
 WORD = r"([A-Za-z][\w.+-]*)(?=[\s)\"';|&]|$)"
 # A word where a shell expects a command: at the beginning, behind what joins commands, or behind one that runs another.
@@ -195,9 +198,9 @@ def main() -> int:
     wanted = listed(options.list or root / "packages.txt")
     bare = re.search(r"--include=(\S+)", (project_root() / "tools/bare_root.sh").read_text(encoding="utf-8"))[1].split(",")
     allowed = {sections: packages.closure([*bare, *(name for section in sections for name in wanted.get(section, []))])
-               for sections in (LIBRARY, PROGRAM, TESTS, CHECKS, SITE)}
+               for sections in (LIBRARY, PROGRAM, TESTS, CHECKS, SITE, KIT)}
     if options.programs:
-        print(f"packages: {link_programs(packages, allowed[SITE], options.programs)} programs in {options.programs}")
+        print(f"packages: {link_programs(packages, allowed[SITE] | allowed[KIT], options.programs)} programs in {options.programs}")
     uses = list(used_by_scripts(root))
     own: set[str] = set() # the compiler's own, whose headers all sources include
     for build in options.builds:

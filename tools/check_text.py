@@ -22,7 +22,7 @@ FORBIDDEN = [
     (re.compile(r"bash_job[s]|\bshared/(desig[n]|seed[s])\b"), "a path of one machine"),
 ]
 BINARY = {".png", ".jpg", ".jpeg", ".exr", ".glb", ".bin", ".spv"}
-CODE = {".cpp", ".h", ".glsl", ".vert", ".frag", ".comp", ".py", ".cmake", ".sh"}
+CODE = {".c", ".cpp", ".h", ".glsl", ".vert", ".frag", ".comp", ".py", ".cmake", ".sh"}
 
 
 def main() -> int:

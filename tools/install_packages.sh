@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing of packages.txt, and says so. Touches nothing (no apt, no network, no root) when all is there.
-# usage: tools/install_packages.sh [--list] [--only SECTION | --without SECTION] [packages.txt]
+# usage: tools/install_packages.sh [--list] [--only SECTION | --without SECTION...] [packages.txt]
 # --only: of that section alone, as "= SECTION" begins it. --without: of all others. --list: says which packages these are, and installs nothing.
+# A package is there, too, where an installed one provides it.
 set -euo pipefail
 only=
 without=
@@ -9,7 +10,7 @@ list_them=0
 while [[ ${1:-} == --* ]]; do
     case $1 in
         --only) only=${2:?--only needs a section}; shift 2 ;;
-        --without) without=${2:?--without needs a section}; shift 2 ;;
+        --without) without+="|${2:?--without needs a section}|"; shift 2 ;;
         --list) list_them=1; shift ;;
         *) echo "packages: there is no option $1" >&2; exit 2 ;;
     esac
@@ -17,7 +18,7 @@ done
 list=${1:-$(dirname "$0")/../packages.txt}
 
 mapfile -t wanted < <(awk -v only="$only" -v without="$without" '/^= / { section = substr($0, 3); next } { sub(/#.*/, "") }
-    NF && (only == "" || section == only) && (without == "" || section != without) { print $1 }' "$list")
+    NF && (only == "" || section == only) && !index(without, "|" section "|") { print $1 }' "$list")
 if [[ ${#wanted[@]} -eq 0 ]]; then
     echo "packages: $list has nothing in section \"$only\"; it has these: $(sed -n 's/^= //p' "$list" | paste -sd, -)" >&2
     exit 2
@@ -32,10 +33,11 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     exit 0
 fi
 
+# Names of all installed packages, and of what they provide.
+there=" $(dpkg-query -W -f '${db:Status-Status} ${Package} ${Provides}\n' | sed -n 's/^installed //p' | sed 's/([^)]*)//g' | tr ',\n' '  ') "
 missing=()
 for name in "${wanted[@]}"; do
-    status=$(dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null || true)
-    [[ $status == installed ]] || missing+=("$name")
+    [[ $there == *" $name "* ]] || missing+=("$name")
 done
 [[ ${#missing[@]} -eq 0 ]] && exit 0
 

@@ -56,6 +56,9 @@ step_packages() {
         g++ -std=c++20 consumer/plan.cpp -o plan $(pkg-config --cflags --libs gnomon-core)
         ./plan
         ldd plan | grep "libgnomon-core.so.0 => /"
+        gcc -std=c99 /usr/share/doc/libgnomon-dev/examples/c_host/c_host.c -o c_host $(pkg-config --cflags --libs gnomon-c)
+        ./c_host | grep "frame 1, pass mask"
+        ldd c_host | grep "libgnomon-c.so.0 => /"
         glslc --target-env=vulkan1.3 -DGNOMON_FILTER=GNOMON_FILTER_HARD consumer/visible.frag -o visible.spv \
             -I $(pkg-config --variable=includedir gnomon-shaders)
         for example in minimal_host forward_host; do

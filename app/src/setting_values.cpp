@@ -42,17 +42,6 @@ void requireInRange(const Setting& setting, std::string_view text, double value)
     }
 }
 
-std::int64_t integerOf(const Setting& setting, std::string_view text)
-{
-    const auto value = toInteger(text);
-    if (!value) {
-        const std::string none = setting.none_text.empty() ? "" : fmt::format("{} or ", setting.none_text);
-        refuse(setting, text, none + "a whole number in the range " + rangeText(setting));
-    }
-    requireInRange(setting, text, static_cast<double>(*value));
-    return *value;
-}
-
 std::string numbersText(const Setting& setting, std::string_view kind)
 {
     const std::string count = setting.min_count == 0 ? fmt::format("{}", setting.count)
@@ -65,8 +54,7 @@ double realOf(const Setting& setting, std::string_view whole, std::string_view t
 {
     const auto value = toNumber(text);
     if (!value) {
-        refuse(setting, whole,
-               setting.type == SettingType::numbers ? numbersText(setting, "finite ") : "a finite number");
+        refuse(setting, whole, numbersText(setting, "finite "));
     }
     requireInRange(setting, whole, *value);
     return *value;
@@ -105,15 +93,21 @@ std::vector<double> pairOf(const Setting& setting, std::string_view text, char s
     return numbers;
 }
 
-bool flagOf(const Setting& setting, std::string_view text)
+/// The library reads flags and numbers, and does so for settings of the program, too.
+SettingValue readByLibrary(const Setting& setting, OptionType type, std::string_view text)
 {
-    if (text == "1" || text == "true" || text == "on" || text == "yes") {
-        return true;
+    OptionRow row;
+    row.type = type;
+    row.form = setting.form;
+    row.unit = setting.unit;
+    row.min = setting.min;
+    row.max = setting.max;
+    row.none_text = setting.none_text;
+    const OptionReading reading = readOption(setting.option != nullptr ? *setting.option : row, text);
+    if (!reading.value) {
+        refuse(setting, text, reading.expected);
     }
-    if (text == "0" || text == "false" || text == "off" || text == "no") {
-        return false;
-    }
-    refuse(setting, text, "0 or 1");
+    return *reading.value;
 }
 
 std::size_t editDistance(std::string_view a, std::string_view b)
@@ -186,15 +180,15 @@ SettingValue parseValue(const Setting& setting, std::string_view text)
     }
     switch (setting.type) {
     case SettingType::flag:
-        value.flag = flagOf(setting, text);
-        break;
+        return readByLibrary(setting, OptionType::flag, text);
     case SettingType::integer:
-        value.integer = integerOf(setting, text);
-        break;
+        return readByLibrary(setting, OptionType::integer, text);
     case SettingType::real:
-        value.real = realOf(setting, text, text);
-        break;
+        return readByLibrary(setting, OptionType::real, text);
     case SettingType::numbers:
+        if (setting.option != nullptr) {
+            return readByLibrary(setting, OptionType::numbers, text);
+        }
         value.numbers = numbersOf(setting, text);
         break;
     case SettingType::size:

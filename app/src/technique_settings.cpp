@@ -44,9 +44,8 @@ Setting settingOf(const OptionRow& row, std::string_view default_text)
     setting.min = row.min;
     setting.max = row.max;
     setting.count = row.count;
-    if (row.type == OptionType::numbers) { // lists of distances or depths, as 10/40
-        setting.min_count = 1;
-        setting.between = '/';
+    if (row.type == OptionType::numbers) {
+        setting.between = '/'; // lists of distances or depths, as 10/40
     }
     setting.choices = row.choices;
     setting.none_text = row.none_text;

@@ -104,8 +104,8 @@ constexpr std::array kRules{
         "it needs motion free or snap"},
     ChoiceRule{Choice::partition, choiceNumber(Partition::virtual_pages), Choice::soften,
                choiceBits(Soften::none, Soften::blur), kNeeds,
-               "virtual holds its pages still, which converge moves in each frame, and has no room beside them for "
-               "smoothies; it needs soften none or blur"},
+               "virtual holds its pages still, which soften converge moves in each frame, and has no room beside "
+               "them for smoothies; it needs soften none or blur"},
     ChoiceRule{Choice::soften, choiceNumber(Soften::converge), Choice::motion, choiceBits(Motion::free), kNeeds,
                "converge moves its maps in each frame, so nobody can hold them still; it needs motion free"},
 };

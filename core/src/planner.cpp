@@ -30,6 +30,9 @@ Outcome checkRange(const ObjectSet& objects)
     return fault.empty() ? Outcome{} : Outcome{OutcomeKind::degenerate, fault};
 }
 
+/// At rest pages follow the picture for so many frames. By then those that are there stay (PageTree).
+constexpr std::uint32_t kFramesOfPages = 16;
+
 /// Four lights share a layer of the mask, but a coloured one has its own. Where none is coloured light i has channel
 /// i % 4 of layer i / 4.
 void placeInMask(Plan& plan)
@@ -83,6 +86,7 @@ struct Planner::Impl {
     FrameMemory last_frame;   // that `plan` was made from
     std::uint64_t frames = 0; // planned so far
     bool settled = false;     // the plan would be made again: nothing in it was to be drawn or fading
+    std::uint32_t rested = 0; // frames in which nothing changed, except for Frame::requests
     bool spoilt = false;      // a plan ended half way, because something threw
 
     [[nodiscard]] bool repeats(const Frame& frame) const;
@@ -156,6 +160,7 @@ const Plan& Planner::plan(const Frame& given)
     s.sights.remember();
     s.spoilt = true;
     const bool again = s.last_frame.holds(frame) && !frame.cut;
+    s.rested = again ? s.rested + 1 : 0;
     s.makePlan(frame, fault);
     s.plan.made_for.objects = given.objects != nullptr ? s.plan.made_for.objects : 0;
     s.last_frame.note(frame);
@@ -170,6 +175,7 @@ void Planner::Impl::forget()
     sights.forget();
     frustums.forget();
     schedule.forget();
+    rested = 0;
 }
 
 void Planner::Impl::makePlan(const Frame& frame, const Outcome& fault)
@@ -180,7 +186,7 @@ void Planner::Impl::makePlan(const Frame& frame, const Outcome& fault)
     schedule.begin(plan);
     sights.see(frame, fault, {frames, plan.cut || !last_frame.sees(frame)}, plan);
     placeInMask(plan);
-    frustums.divide(sights, plan);
+    frustums.divide(sights, rested, plan);
     schedule.foresee(sights, frustums, places, plan);
     frustums.list(sights, plan);
     places.furnish(sights, frustums);
@@ -201,12 +207,13 @@ bool Planner::Impl::settles() const
            std::ranges::none_of(plan.lights, [](const LightPlan& light) { return light.waited > 0; });
 }
 
-/// Would the frame's plan be the last one? Not where it depends on time, or is of another sample of the light.
+/// Would the frame's plan be the last one? Not where it depends on time, or is of another sample of the light. Pages
+/// follow what is seen of themselves, and might do so for ever.
 bool Planner::Impl::repeats(const Frame& frame) const
 {
     return settled && !spoilt && !frame.cut && last_frame.holds(frame) &&
-           std::ranges::none_of(sights.setups(), [](const Setup& setup) {
-               return setup.recipe.converges() || setup.recipe.hasPages() ||
+           std::ranges::none_of(sights.setups(), [this](const Setup& setup) {
+               return setup.recipe.converges() || (setup.recipe.hasPages() && rested < kFramesOfPages) ||
                       (setup.recipe.motion != nullptr && setup.recipe.motion->stepping != Stepping::none);
            });
 }

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gnomon/pack/page_table.h>
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -14,43 +11,6 @@ namespace {
 /// A node is two vectors, and no more than a word's upper half of them lie after another of one light.
 constexpr std::uint32_t kMostNodes = 0x7FFFU;
 
-/// Which square of its light's root a page is, among 2^depth on a side.
-struct PagePlace {
-    std::uint32_t depth = 0;
-    std::uint32_t x = 0;
-    std::uint32_t y = 0;
-};
-
-/// The part of a row across that is the divisor's: of a page's, minus its middle in halves of its side. It is the
-/// constant under parallel rays, else what is along the axis.
-double middleOf(const glm::dvec4& row, const glm::dvec4& divisor)
-{
-    const glm::dvec3 axis(divisor);
-    return axis == glm::dvec3(0.0) ? row.w : glm::dot(glm::dvec3(row), axis);
-}
-
-double sharpnessOf(const ViewSector& sector)
-{
-    const glm::dvec3 across = glm::dvec3(sector.x) - glm::dvec3(sector.w) * middleOf(sector.x, sector.w);
-    const bool is_parallel = glm::dvec3(sector.w) == glm::dvec3(0.0);
-    return glm::length(is_parallel ? glm::dvec3(sector.x) : across);
-}
-
-PagePlace placeOf(const ViewSector& root, const ViewSector& page)
-{
-    const double times = sharpnessOf(page) / sharpnessOf(root);
-    const auto middles = [](const ViewSector& sector) {
-        return glm::dvec2(middleOf(sector.x, sector.w), middleOf(sector.y, sector.w));
-    };
-    // From the root's low end to the page's middle, in sides of the page.
-    const glm::dvec2 middle = 0.5 * (glm::dvec2(times) + times * middles(root) - middles(page));
-    PagePlace place;
-    place.depth = static_cast<std::uint32_t>(std::lround(std::log2(times)));
-    place.x = static_cast<std::uint32_t>(middle.x);
-    place.y = static_cast<std::uint32_t>(middle.y);
-    return place;
-}
-
 /// The tree below one of a light's roots.
 class TableOfRoot {
 public:
@@ -58,18 +18,17 @@ public:
     TableOfRoot(std::vector<glm::uvec2>& out, std::span<const View> views, std::uint32_t root)
         : out_(out), first_(out.size())
     {
-        const ViewSector& sector = views[root].serves.sector;
         addNode(root);
         for (std::uint32_t view = root; view-- > 0;) { // coarse ones first
-            if (views[view].serves.sector.w == sector.w) {
-                add(placeOf(sector, views[view].serves.sector), view);
+            if (const ViewPage& page = views[view].serves.page; page.face == views[root].serves.page.face) {
+                add(page, view);
             }
         }
     }
     [[nodiscard]] std::uint32_t first() const { return static_cast<std::uint32_t>(first_); }
 
 private:
-    void add(const PagePlace& place, std::uint32_t view)
+    void add(const ViewPage& place, std::uint32_t view)
     {
         std::size_t node = first_;
         for (std::uint32_t left = place.depth; left-- > 0;) {
@@ -99,30 +58,17 @@ private:
     std::uint32_t count_ = 0;
 };
 
-/// Of which face of the cube around a light its root is, if it has several.
-std::uint32_t faceOf(const ViewSector& root)
-{
-    const glm::dvec3 axis(root.w);
-    const int number = std::abs(axis.x) > 0.5 ? 0 : std::abs(axis.y) > 0.5 ? 1 : 2;
-    return static_cast<std::uint32_t>(number + (axis[number] < 0.0 ? 3 : 0));
-}
-
 /// Its entries from `first` on, and its nodes.
 void addLight(std::span<const View> views, std::uint32_t first_view, std::size_t first, std::vector<glm::uvec2>& out)
 {
-    const double coarsest = sharpnessOf(views.back().serves.sector);
     const auto last = static_cast<std::uint32_t>(views.size()) - 1;
-    for (std::uint32_t view = last + 1; view-- > 0;) {
-        const ViewSector& sector = views[view].serves.sector;
-        if (sharpnessOf(sector) > 1.5 * coarsest) {
-            return; // all roots were before
-        }
+    for (std::uint32_t view = last + 1; view-- > 0 && views[view].serves.page.depth == 0;) { // roots are last
         const TableOfRoot table(out, views, view);
         const glm::uvec2 entry(table.first() - 1, first_view + view);
         if (view == last) { // a face without a root finds pages that do not show it
             std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(first), kPageFaces, entry);
         }
-        out[first + faceOf(sector)] = entry;
+        out[first + views[view].serves.page.face] = entry;
     }
 }
 

@@ -21,7 +21,7 @@ class GnomonConan(ConanFile):
     options = {"shared": [True, False], "fPIC": [True, False]}
     default_options = {"shared": False, "fPIC": True}
     # What the library is made of; the program and the tests are left out.
-    parts = ("CMakeLists.txt", "LICENSE", "cmake/*", "core/*", "pack/*", "vulkan/*", "shaders/*", "examples/*")
+    parts = ("CMakeLists.txt", "LICENSE", "cmake/*", "core/*", "pack/*", "c/*", "vulkan/*", "shaders/*", "examples/*")
 
     def export_sources(self):
         root = os.path.join(self.recipe_folder, "..", "..")
@@ -74,12 +74,15 @@ class GnomonConan(ConanFile):
         self.cpp_info.set_property("cmake_find_mode", "none")
         self.cpp_info.builddirs.append(os.path.join("lib", "cmake", "gnomon"))
         below = []
-        for name in ("core", "pack", "vulkan", "vulkan_classics"):
+        for name in ("core", "pack", "c", "vulkan", "vulkan_classics"):
             part = self.cpp_info.components[name]
             # The shared library of vulkan has classics, too.
             part.libs = [] if self.options.shared and name == "vulkan_classics" else [f"gnomon-{name}"]
             part.set_property("pkg_config_name", f"gnomon-{name}")
             part.requires = list(below)
-            below.append(name)
+            if name != "c":  # which nothing of the library is made of
+                below.append(name)
+        if not self.options.shared:
+            self.cpp_info.components["c"].system_libs = ["stdc++", "m"]
         self.cpp_info.components["core"].requires.append("glm::glm")
         self.cpp_info.components["vulkan"].requires += ["vulkan-headers::vulkan-headers", "vulkan-loader::vulkan-loader"]

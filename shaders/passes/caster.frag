@@ -7,11 +7,11 @@
 #include "gnomon/lib/caster.glsl"
 
 // CasterConstants.
-layout(constant_id = 0) const int kHolding = kDepthAlone;
-layout(constant_id = 1) const float kQuantum = 0.0;
-layout(constant_id = 2) const bool kColoured = false;
-layout(constant_id = 6) const bool kIds = false;
-layout(constant_id = 7) const bool kParaboloid = false;
+layout(constant_id = 0) const int kHolding = kDepthAlone; // kDepthAlone or kDepthBytes: paired_depth.h
+layout(constant_id = 1) const float kQuantum = 0.0; // BEHIND: largest error of first_surface
+layout(constant_id = 2) const bool kColoured = false; // vertices have colours
+layout(constant_id = 6) const bool kIds = false; // the map holds ids of objects
+layout(constant_id = 7) const bool kParaboloid = false; // the map is one
 layout(constant_id = 9) const bool kOwnDepth = false; // BEHIND: the rasteriser's depth is not the metric
 
 #ifdef PER_SAMPLE

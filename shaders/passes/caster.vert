@@ -15,7 +15,7 @@
 // CasterConstants.
 layout(constant_id = 2) const bool kColoured = false; // vertices have colours
 layout(constant_id = 3) const bool kMasked = false;   // the caster has a texture
-layout(constant_id = 4) const bool kPerspective = false;
+layout(constant_id = 4) const bool kPerspective = false; // the map is not orthographic
 layout(constant_id = 5) const bool kMetric = false; // a fragment shader stores it
 layout(constant_id = 6) const bool kIds = false;    // the map holds ids of objects
 layout(constant_id = 7) const bool kParaboloid = false; // the map is one: caster.glsl
@@ -60,7 +60,8 @@ layout(push_constant) uniform Material
     float cutoff;
     int first_view; // the first of the views that are drawn in one pass
 #ifdef CLIPPED
-    layout(offset = 64) vec4 clip_planes[2];
+    vec4 tint; // caster_tint.frag's
+    vec4 clip_planes[2];
 #endif
 };
 #ifdef CLIPPED

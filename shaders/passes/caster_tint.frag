@@ -7,7 +7,7 @@
 #include "gnomon/lib/caster.glsl"
 
 layout(constant_id = 2) const bool kColoured = false; // CasterConstants
-layout(constant_id = 7) const bool kParaboloid = false;
+layout(constant_id = 7) const bool kParaboloid = false; // the map is one
 layout(location = 0) in float metric_in; // as caster.vert has them
 layout(location = 1) in vec2 uv;
 layout(location = 2) in vec3 rim;

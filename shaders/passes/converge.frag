@@ -11,7 +11,7 @@
 
 // The camera stands and nothing moved: then a pixel is joined with itself alone, and what follows for others need not be
 // compiled [drivers: both-sides].
-layout(constant_id = 0) const bool kAtRest = false;
+layout(constant_id = 0) const bool kAtRest = false; // what was seen before lies at the same pixel
 
 layout(set = 0, binding = 0, std140) uniform Constants
 {
@@ -132,7 +132,8 @@ vec4 cubicMean(ivec3 first, vec2 part, Gathered found)
 }
 
 // The result of earlier frames at p, relative to the eye: a read between those pixels that showed the same surface.
-Known knownOf(vec3 p, vec3 normal)
+// `now`: this frame's visibilities. Those that are of all of the light tell, too, how far pixels are apart.
+Known knownOf(vec3 p, vec3 normal, vec4 now)
 {
     Known none = Known(vec4(1.0), vec4(0.0));
     vec4 point = vec4(p, 1.0);
@@ -147,7 +148,9 @@ Known knownOf(vec3 p, vec3 normal)
     vec2 part = texel - cell;
     ivec3 first = ivec3(ivec2(cell), layer);
     float expected_m = length(p + layers[layer].before_eye.xyz);
-    Gathered found = Gathered(vec4(0.0), vec4(0.0), 0.0, vec4(1.0), vec4(0.0));
+    vec4 least = layers[layer].least;
+    bvec4 is_whole = equal(least, vec4(kLeastOfWholeLight));
+    Gathered found = Gathered(vec4(0.0), vec4(0.0), 0.0, mix(vec4(1.0), now, is_whole), mix(vec4(0.0), now, is_whole));
     gather(first, (1.0 - part.x) * (1.0 - part.y), expected_m, normal, found);
     gather(first + ivec3(1, 0, 0), part.x * (1.0 - part.y), expected_m, normal, found);
     gather(first + ivec3(0, 1, 0), (1.0 - part.x) * part.y, expected_m, normal, found);
@@ -159,7 +162,8 @@ Known knownOf(vec3 p, vec3 normal)
     vec4 counts = found.counts / found.shares;
     if (layers[layer].state.y == 0u) {
         vec4 spread = max(found.most - found.least, vec4(0.0));
-        counts = min(counts, vec4(mostInMotion(spread.x), mostInMotion(spread.y), mostInMotion(spread.z), mostInMotion(spread.w)));
+        counts = min(counts, vec4(mostInMotion(spread.x, least.x), mostInMotion(spread.y, least.y),
+                                  mostInMotion(spread.z, least.z), mostInMotion(spread.w, least.w)));
     }
     return Known(known, counts);
 }
@@ -228,7 +232,7 @@ void main()
     vec4 counts = layers[layer].most;
     Known known = Known(vec4(1.0), vec4(0.0));
     if (counts != vec4(0.0)) {
-        known = knownOf(p, octahedralDecode(packed_normal));
+        known = knownOf(p, octahedralDecode(packed_normal), now.visibility);
     }
     counts = min(known.counts, counts) * unmoved(p);
     mean = joined(known.mean, counts, now);

@@ -12,7 +12,7 @@
 
 // Constants, and not read from buffers [drivers: both-sides].
 #include "gnomon/technique_constants.glsl" // 0 to 8
-layout(constant_id = 9) const bool kHasNormals = true;
+layout(constant_id = 9) const bool kHasNormals = true; // else they come from depth
 #ifdef GNOMON_ONE_VIEW
 #undef GNOMON_FEW_VIEWS
 #define GNOMON_FEW_VIEWS 1u
@@ -20,7 +20,7 @@ const bool kInSoftware = true;
 #else
 layout(constant_id = 10) const bool kInSoftware = false; // see mask_numbers.glsl and screen_surface.glsl
 #endif
-layout(constant_id = 11) const bool kHasSmooth = false;
+layout(constant_id = 11) const bool kHasSmooth = false; // smooth_surfaces is no stand-in
 layout(constant_id = 12) const bool kTints = false; // some view has a map of tints
 layout(constant_id = 13) const bool kRaysAsMask = false; // see lib/raymarch.glsl
 layout(constant_id = 14) const bool kConfidence = false; // for converge.frag: packSeen()
@@ -52,7 +52,7 @@ layout(constant_id = 21) const bool kPaired = false; // two positions of the sun
 #define GNOMON_LAYERED false
 #else
 layout(constant_id = 23) const bool kLayered = false; // views may be ViewServes::layered ones
-layout(constant_id = 24) const bool kOrthographic = false; // all views are
+layout(constant_id = 24) const bool kOrthographic = false; // all views are orthographic
 #define GNOMON_LAYERED (kLayered && !kOrthographic)
 #define GNOMON_ORTHOGRAPHIC_ONLY kOrthographic
 #endif

@@ -10,7 +10,7 @@
 layout(set = 0, binding = 1) uniform sampler2D depths;
 layout(set = 0, binding = 2) uniform sampler2D normals;
 layout(set = 0, binding = 3) uniform sampler2DArray source;
-layout(constant_id = 0) const bool kHasNormals = true;
+layout(constant_id = 0) const bool kHasNormals = true; // normals is no stand-in
 layout(set = 0, binding = 4) uniform usampler2D object_ids;
 layout(constant_id = 1) const bool kInSoftware = false; // screen_surface.glsl
 layout(constant_id = 2) const bool kHasIds = false;     // else object_ids is a stand-in

@@ -6,7 +6,7 @@
 #include "gnomon/shared/gpu_structs.h"
 #include "gnomon/shared/smooth_surface.h"
 
-layout(constant_id = 0) const bool kHasSmooth = false;
+layout(constant_id = 0) const bool kHasSmooth = false; // smooth_surfaces is no stand-in
 layout(set = 0, binding = 0, std140) uniform Constants
 {
     GpuConstants constants;

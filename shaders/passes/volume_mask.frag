@@ -6,9 +6,9 @@
 #include "gnomon/lib/facing.glsl"
 #include "gnomon/shared/moment_rule.h"
 
-layout(constant_id = 0) const bool kHasNormals = true;
-layout(constant_id = 1) const bool kHasSmooth = false;
-layout(constant_id = 2) const bool kIsInside = false;
+layout(constant_id = 0) const bool kHasNormals = true; // normals is no stand-in
+layout(constant_id = 1) const bool kHasSmooth = false; // smooth_surfaces is no stand-in
+layout(constant_id = 2) const bool kIsInside = false; // draws what is inside of some volume
 layout(constant_id = 3) const bool kHasIds = false; // else object_ids is a stand-in
 layout(push_constant) uniform Push
 {

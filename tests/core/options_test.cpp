@@ -205,6 +205,47 @@ TEST(OptionTable, ReadsWhatItWrites)
     }
 }
 
+TEST(OptionTable, TextsAreReadAsTheyAreWritten)
+{
+    for (const OptionRow& row : optionTable()) {
+        ShadowOptions options;
+        for (const double number : {row.min, row.max}) {
+            OptionValue value = row.get(options);
+            value.none = false;
+            value.integer = static_cast<std::int64_t>(number);
+            value.real = number;
+            value.flag = number > 0.0;
+            value.numbers.assign(row.type == OptionType::numbers ? row.count : 0, number);
+            if (row.type == OptionType::choice) {
+                value.text = number == row.min ? row.choices().front() : row.choices().back();
+            }
+            const OptionReading reading = readOption(row, textOf(row, value));
+            ASSERT_TRUE(reading.value) << row.key << ": " << reading.expected;
+            EXPECT_EQ(textOf(row, *reading.value), textOf(row, value)) << row.key;
+            EXPECT_EQ(reading.value->numbers, value.numbers) << row.key;
+        }
+        EXPECT_EQ(readOption(row, row.none_text).value.has_value(), !row.none_text.empty()) << row.key;
+        for (const std::string_view wrong : {"", " ", "nan", "inf", "1e400", "0x10", "1 ", "1,5", "1/", "/", "-1e19"}) {
+            const OptionReading reading = readOption(row, wrong);
+            EXPECT_FALSE(reading.value) << row.key << " takes \"" << wrong << "\"";
+            EXPECT_NE(reading.expected, "") << row.key;
+        }
+    }
+}
+
+TEST(OptionTable, SaysWhatItTakesInstead)
+{
+    const auto expected = [](std::string_view key, std::string_view text) {
+        return readOption(*findOption(key), text).expected;
+    };
+    EXPECT_EQ(expected("pcf.taps", "65"), "in the range 4 to 64 taps");
+    EXPECT_EQ(expected("pcf.taps", "x"), "a whole number in the range 4 to 64 taps");
+    EXPECT_EQ(expected("map-size", "x"), "auto or a whole number in the range 16 to 16384 texels");
+    EXPECT_EQ(expected("bias.constant", "x"), "a finite number in the range -1000000 to 1000000 m");
+    EXPECT_EQ(expected("level-depth", "2"), "0 or 1");
+    EXPECT_EQ(expected("lighten.as", "x"), "remap or add");
+}
+
 TEST(OptionTable, NumbersEndWhereTheirRangesDo)
 {
     for (const OptionRow& row : optionTable()) {

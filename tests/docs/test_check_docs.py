@@ -15,6 +15,8 @@ TREE = {
     "README.md": "See [the options](docs/cli.md#options).\n```cpp\nint a = 1;\n\nint b = a;\n```\n",
     "tests/docs/readme_snippet.cpp": "int main()\n{\n    // README begin\n    int a = 1;\n\n    int b = a;\n"
                                    "    // README end\n}\n",
+    "docs/c.md": "```c\nint c;\n```\n",
+    "examples/c_host/c_host.c": "// docs/c.md begin\nint c;\n// docs/c.md end\n",
     "docs/cli.md": "`gnomon render rts --map-size 512 -o a.png`\n\n<!-- options begin -->\n"
                    "| option | default | what it is | for |\n|---|---|---|---|\n"
                    "| `--map-size` | `2048` | side (texels; 16 to 16384) | render, plan |\n"
@@ -40,7 +42,8 @@ END
 """
 FAULTS = [
     ("README.md", "docs/cli.md#options", "docs/none.md", "docs/none.md does not exist"),
-    ("README.md", "int a = 1;", "int a = 2;", "no C++ block"),
+    ("README.md", "int a = 1;", "int a = 2;", "README.md: no block is what"),
+    ("docs/c.md", "int c;", "int d;", "docs/c.md: no block is what"),
     ("tests/docs/readme_snippet.cpp", "README end", "the end", "no lines between"),
     ("docs/cli.md", "| `2048` |", "| `1024` |", "the program's options differ"),
     ("docs/cli.md", "| `--map-size` | `2048` | side (texels; 16 to 16384) | render, plan |\n", "",

@@ -22,7 +22,7 @@ std::uint32_t pageAt(const Plan& plan, std::uint32_t light, const std::vector<gl
     const glm::dvec3 from = p - plan.made_for.lights[light].position_ws;
     const glm::dvec3 far = glm::abs(from);
     const int axis = far.x >= std::max(far.y, far.z) ? 0 : far.y >= far.z ? 1 : 2;
-    const glm::uvec2 root = words[6 * light + static_cast<unsigned>(axis + (from[axis] < 0.0 ? 3 : 0))];
+    const glm::uvec2 root = words[6 * light + static_cast<unsigned>(2 * axis + (from[axis] < 0.0 ? 1 : 0))];
     const ViewSector& sector = plan.views[root.y].serves.sector;
     const glm::dvec4 h(p, 1.0);
     glm::dvec2 at = glm::dvec2(glm::dot(sector.x, h), glm::dot(sector.y, h)) / glm::dot(sector.w, h) + 1.0;

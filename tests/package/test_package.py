@@ -94,7 +94,7 @@ class Installed(Case):
 
     def test_component_that_is_unknown_is_named(self):
         self.fails(self.project("find_package(gnomon REQUIRED COMPONENTS core volcano)"),
-                   'gnomon has no component "volcano"; it has core, pack, vulkan, vulkan_classics, ' +
+                   'gnomon has no component "volcano"; it has core, pack, c, vulkan, vulkan_classics, ' +
                    ("gl, shaders" if self.has_gl() else "shaders"))
         self.passes(self.project("find_package(gnomon REQUIRED OPTIONAL_COMPONENTS volcano core)",
                                  "if(gnomon_volcano_FOUND OR NOT gnomon_core_FOUND)", "message(FATAL_ERROR no)", "endif()"))
@@ -145,11 +145,15 @@ class Installed(Case):
             self.passes(run(OPTIONS.cxx, "-std=c++20", build / "gl.cpp", "-o", build / "gl",
                             *flags("--cflags", "--libs", "gnomon-gl")))
             self.passes(run(build / "gl"))
+        # A host in C, which a compiler of C links.
+        host = next(self.prefix.rglob("examples/c_host/c_host.c"))
+        self.passes(run("cc", "-std=c99", host, "-o", build / "c_host", *flags("--cflags", "--libs", "gnomon-c")))
+        self.assertIn("frame 1, pass mask", self.passes(run(build / "c_host")))
         include = flags("--variable=includedir", "gnomon-shaders")[0]
         self.passes(run("glslc", "--target-env=vulkan1.3", "-DGNOMON_FILTER=GNOMON_FILTER_HARD", "-I", include,
                         CONSUMER / "visible.frag", "-o", build / "visible.spv"))
-        self.assertEqual(flags("--modversion", "gnomon-core", "gnomon-pack", "gnomon-vulkan", "gnomon-vulkan_classics", "gnomon-shaders"),
-                         ["0.1.0"] * 5)
+        self.assertEqual(flags("--modversion", "gnomon-core", "gnomon-pack", "gnomon-c", "gnomon-vulkan", "gnomon-vulkan_classics", "gnomon-shaders"),
+                         ["0.1.0"] * 6)
 
     def test_examples(self):
         for name in ("minimal_host", "forward_host") + (("gl_host",) if self.has_gl() else ()):
@@ -158,13 +162,19 @@ class Installed(Case):
             self.passes(run("cmake", "--build", build))
             self.passes(run(build / name, build))
             self.assertTrue([*build.glob("*.p[gp]m")])
+        build = folder("c_host")
+        self.passes(configure(next(self.prefix.rglob("examples/c_host")), build, self.found,
+                              "-DCMAKE_DISABLE_FIND_PACKAGE_Vulkan=ON"))
+        self.passes(run("cmake", "--build", build))
+        self.assertIn("frame 1, pass mask", self.passes(run(build / "c_host")))
 
 
 class InBuild(Case):
     def test_add_subdirectory(self):
         build = folder("add_subdirectory")
         self.passes(configure(CONSUMER, build, "-DHOW=add_subdirectory", f"-DGNOMON_SOURCE={OPTIONS.source}"))
-        # Whoever does not link classic techniques does not compile them.
+        # Whoever does not link the interface for C or classic techniques does not compile them.
+        self.assertNotIn("gnomon_c.dir", self.passes(run("ninja", "-C", build, "-t", "inputs", "all")))
         for target, has in (("all", False), ("classics", True)):
             inputs = self.passes(run("ninja", "-C", build, "-t", "inputs", target))
             self.assertEqual(has, "gnomon_classic_spirv" in inputs, target)
@@ -225,6 +235,10 @@ class Configured(Case):
         self.assertLess(set(library), set(self.passes(run(tool, "--list")).split()))
         site = self.passes(run(tool, "--list", "--only", "site")).split()
         self.assertEqual(set(self.passes(run(tool, "--list", "--without", "site")).split()), set(self.passes(run(tool, "--list")).split()) - set(site))
+        kit = self.passes(run(tool, "--list", "--only", "kit")).split()
+        self.assertEqual(kit, ["nodejs", "npm"])
+        self.assertEqual(set(self.passes(run(tool, "--list", "--without", "site", "--without", "kit")).split()),
+                         set(self.passes(run(tool, "--list")).split()) - set(site) - set(kit))
         self.fails(run(tool, "--list", "--only", "volcano"), 'nothing in section "volcano"; it has these: library,')
 
 

@@ -14,7 +14,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-PUBLIC = re.compile(r"(typeinfo for |typeinfo name for |vtable for )?gnomon::")
+PUBLIC = re.compile(r"(typeinfo for |typeinfo name for |vtable for )?gnomon::|gnomon[A-Z]\w*$")
 OPTIONS = argparse.Namespace()
 
 

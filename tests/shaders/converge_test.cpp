@@ -115,9 +115,12 @@ TEST(PackCount, tellsSmallWeightsApart)
 
 TEST(MostInMotion, isLittleAtSharpEdgesAlone)
 {
-    EXPECT_EQ(mostInMotion(1.0), 3.0);
-    EXPECT_EQ(mostInMotion(0.0), 15.0);
-    EXPECT_NEAR(mostInMotion(0.3), 0.6 / 0.09, 1e-12);
+    EXPECT_EQ(mostInMotion(1.0, kLeastOfPoint), 3.0);
+    EXPECT_EQ(mostInMotion(0.0, kLeastOfPoint), 15.0);
+    EXPECT_NEAR(mostInMotion(0.3, kLeastOfPoint), 0.6 / 0.09, 1e-12);
+    EXPECT_NEAR(mostInMotion(1.0, kLeastOfWholeLight), 0.0, 1e-12) << "a sharp edge is this frame's";
+    EXPECT_NEAR(mostInMotion(0.3, kLeastOfWholeLight), 0.6 / 0.09 - 0.6, 1e-12);
+    EXPECT_EQ(mostInMotion(0.0, kLeastOfWholeLight), 15.0);
 }
 
 TEST(CubicWeights, keepConstantsLinesAndParabolas)

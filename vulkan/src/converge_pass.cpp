@@ -206,6 +206,7 @@ void ConvergePass::fillLight(const Plan& plan, std::size_t index, std::uint32_t 
             out.size[channel] = static_cast<float>(size);
             out.pad[channel] = pad;
             out.power[channel] = power;
+            out.least[channel] = whole ? shared::kLeastOfWholeLight : shared::kLeastOfPoint;
         }
     }
 }

@@ -8,6 +8,7 @@
 #include <gnomon/options.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -55,6 +56,14 @@ struct OptionRow {
 [[nodiscard]] GNOMON_API const OptionRow* findOption(std::string_view key);
 /// The value as one would write it, the same in every locale; none_text where there is no value.
 [[nodiscard]] GNOMON_API std::string textOf(const OptionRow& row, const OptionValue& value);
+/// The value that a text stands for, or what the row takes instead.
+struct OptionReading {
+    std::optional<OptionValue> value; // nothing where the text is none of the row's values
+    std::string expected;             // then: "a whole number in the range 4 to 64"
+};
+/// Reads a value that was written as textOf() writes it, the same in every locale. Flags may be 1, true, on, yes, 0,
+/// false, off and no. A number outside of the row's range is none of its values.
+[[nodiscard]] GNOMON_API OptionReading readOption(const OptionRow& row, std::string_view text);
 /// The first member that is outside of its range, as a sentence; nothing when all are inside.
 [[nodiscard]] GNOMON_API std::optional<std::string> firstOutOfRange(const ShadowOptions& options);
 

@@ -136,6 +136,16 @@ struct ViewSector {
     }
 };
 
+/// The square that a page of partition virtual shows, of the 2^depth on a side of one of its light's roots.
+struct ViewPage {
+    std::uint32_t face = 0;  // of the cube around a lamp: +x, -x, +y, -y, +z, -z; of another light 0
+    std::uint32_t depth = 0; // 0: the root
+    std::uint32_t x = 0;     // place among the squares, from the root's lower end
+    std::uint32_t y = 0;     // the same along the other axis
+
+    bool operator==(const ViewPage&) const = default;
+};
+
 /// The quality of a fit. Sides of texels are as in ViewProjection::texel_xy_m, in x and y of the map.
 struct FitReport {
     double strength = 1.0;          // width of the widest texel over that of the narrowest; 1: no warp
@@ -201,6 +211,7 @@ struct ViewServes {
     SunPosition sun = SunPosition::only; // which position of a stepping sun
     ViewSlice slice;                     // which depths
     ViewSector sector;                   // which directions
+    ViewPage page;                     // partition virtual: where the sector lies
     /// How far it has faded in over the light's views before it that serve the same place: 0 .. 1. Less than 1 only
     /// while frustums of partition multi change under motion snap (MultiOptions::fade_frames).
     double faded_in = 1.0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace gnomon {
 namespace {
@@ -48,6 +49,57 @@ bool isKnown(const OptionRow& row, const OptionValue& value)
 {
     const std::vector<std::string_view> names = row.choices();
     return value.none || std::ranges::find(names, value.text) != names.end();
+}
+
+/// "1 to 8 texels"; large whole numbers have all their digits.
+std::string rangeText(const OptionRow& row)
+{
+    const auto written = [](double value) {
+        constexpr double kAllDigits = 1e15;
+        return std::abs(value) < kAllDigits && value == std::trunc(value)
+                   ? std::to_string(static_cast<std::int64_t>(value))
+                   : textOf(value);
+    };
+    return "in the range " + written(row.min) + " to " + written(row.max) + (row.unit.empty() ? "" : " ") +
+           std::string(row.unit);
+}
+
+/// The whole text as a number.
+template <class T>
+std::optional<T> numberIn(std::string_view text)
+{
+    T value{};
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+}
+
+std::optional<bool> flagIn(std::string_view text)
+{
+    constexpr std::array<std::string_view, 8> kWords{"0", "false", "off", "no", "1", "true", "on", "yes"};
+    const auto found = std::ranges::find(kWords, text);
+    return found != kWords.end() ? std::optional(found - kWords.begin() >= 4) : std::nullopt;
+}
+
+/// The finite numbers between slashes; nothing where there is something else, or are too many.
+std::optional<std::vector<double>> numbersIn(const OptionRow& row, std::string_view text)
+{
+    std::vector<double> numbers;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find('/', begin), text.size());
+        const std::optional<double> number = numberIn<double>(text.substr(begin, end - begin));
+        if (!number || !std::isfinite(*number) || numbers.size() == row.count) {
+            return std::nullopt;
+        }
+        numbers.push_back(*number);
+        begin = end + 1;
+    }
+    return numbers;
+}
+
+std::string countText(const OptionRow& row)
+{
+    return "1 to " + std::to_string(row.count) + " finite numbers with / between (" + std::string(row.form) + ")";
 }
 
 /// "1 or 4"; "a, b or c".
@@ -118,6 +170,50 @@ std::string textOf(const OptionRow& row, const OptionValue& value)
         numbers += (numbers.empty() ? "" : "/") + textOf(number);
     }
     return numbers;
+}
+
+OptionReading readOption(const OptionRow& row, std::string_view text)
+{
+    OptionValue value;
+    const std::string none = row.none_text.empty() ? "" : std::string(row.none_text) + " or ";
+    if (!row.none_text.empty() && text == row.none_text) {
+        value.none = true;
+        return {value, {}};
+    }
+    std::string expected; // where the text is of another type
+    bool read = false;
+    const auto take = [&read](const auto& found, auto& member) {
+        read = found.has_value();
+        member = found ? *found : member;
+    };
+    switch (row.type) {
+    case OptionType::flag:
+        take(flagIn(text), value.flag);
+        expected = "0 or 1";
+        break;
+    case OptionType::integer:
+        take(numberIn<std::int64_t>(text), value.integer);
+        expected = none + "a whole number " + rangeText(row);
+        break;
+    case OptionType::real:
+        take(numberIn<double>(text), value.real);
+        read = read && std::isfinite(value.real);
+        expected = none + "a finite number " + rangeText(row);
+        break;
+    case OptionType::numbers:
+        take(numbersIn(row, text), value.numbers);
+        expected = none + countText(row);
+        break;
+    case OptionType::choice:
+        value.text = text;
+        read = isKnown(row, value);
+        expected = none + namesText(row);
+        break;
+    }
+    if (read && numberOutside(row, value)) {
+        return {std::nullopt, rangeText(row)};
+    }
+    return read ? OptionReading{value, {}} : OptionReading{std::nullopt, expected};
 }
 
 std::optional<std::string> firstOutOfRange(const ShadowOptions& options)

@@ -55,10 +55,14 @@ bool isGaussian(const ShadowOptions& o)
     return isPcf(o) && kernelWidth(o.pcf.kernel) > 1;
 }
 
-/// Setting a part of the bias turns the automatic bias off.
+/// Setting a part of the bias turns the automatic bias off, and taking its value away turns it on.
 template <auto path>
 void setBias(ShadowOptions& options, const OptionValue& value)
 {
+    if (value.none) {
+        options.bias = BiasOptions{};
+        return;
+    }
     options.bias.automatic = false;
     assign(path(options.bias), value);
 }

@@ -11,8 +11,13 @@ namespace {
 
 /// Texels narrower than this share of a pixel gain nothing.
 constexpr double kFinestShare = 0.125;
-/// A page that is there gains so many times more than one that would have to be drawn.
-constexpr double kStays = 1.25;
+/// A page that is there gains so many times more than one that would have to be drawn: at rest from the eighth frame on
+/// twice as many in each, because edges are those of the pages themselves, and may change with them for ever.
+double stays(std::uint32_t rested)
+{
+    constexpr std::uint32_t kFree = 8;
+    return 1.25 * std::exp2(std::min(std::max(rested, kFree) - kFree, 64U));
+}
 /// No page is so many times narrower than the root, as a power of two.
 constexpr int kDeepest = 24;
 
@@ -149,7 +154,7 @@ void PageTree::addQuarter(const Input& input, std::uint32_t parent, const PageKe
     }
     const bool is_known = std::ranges::binary_search(input.known, key);
     nodes_[index].served = sideOf(key) / input.inner_texels;
-    wishes_.push_back({is_known ? gain * kStays : gain, index});
+    wishes_.push_back({is_known ? gain * stays(input.rested) : gain, index});
     std::ranges::push_heap(wishes_, [this](const Wish& a, const Wish& b) { return comesLater(a, b); });
 }
 

@@ -81,6 +81,7 @@ public:
         double slant = 0.0; // at a place x or y across it is sqrt(1 + slant x^2) times as far off along that axis
         std::uint32_t most_pages = 1;
         std::span<const PageKey> known; // taken() in the frame before
+        std::uint32_t rested = 0;       // frames in which nothing changed, except for what edges were seen
     };
     /// Roots with casters are always among the pages. A page whose four quarters have pages has none itself.
     void divide(const Input& input);

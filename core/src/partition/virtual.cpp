@@ -27,6 +27,15 @@ const PageRequests* requestsOf(const Frame& frame, std::uint32_t key)
     return found != frame.requests.end() && !frame.cut ? &*found : nullptr;
 }
 
+ViewPage squareIn(const PageKey& root, const PageKey& page)
+{
+    const int depth = root.level - page.level;
+    const auto placed = [&](std::int64_t at, std::int64_t low) { // both in quarters of a side
+        return static_cast<std::uint32_t>((at - (low << depth)) / 4);
+    };
+    return {page.face, static_cast<std::uint32_t>(depth), placed(page.x, root.x), placed(page.y, root.y)};
+}
+
 /// The texels that a light's pages may have together.
 std::uint64_t pageTexels(const ResolvedOptions& options, const Light& light)
 {
@@ -86,7 +95,7 @@ void VirtualPartition::divide(const Input& input, std::size_t light)
     const std::uint64_t most = std::max<std::uint64_t>(found.texels / (std::uint64_t{found.side} * found.side), 1);
     tree_.divide({roots_, points_, boxes_, side - 2.0 * border, border,
                   tileMarginTexels(static_cast<double>(options.reach_texels())), spread.spread, spread.slant,
-                  static_cast<std::uint32_t>(most), memory.taken});
+                  static_cast<std::uint32_t>(most), memory.taken, input.rested});
     memory.taken.assign(tree_.taken().begin(), tree_.taken().end());
     namePages(memory, found);
 }
@@ -275,6 +284,7 @@ void VirtualPartition::namePages(Memory& memory, Found& found)
         VirtualPage& page = pages_.emplace_back();
         page.id = named.id;
         page.key = one.key;
+        page.square = squareIn(roots_[one.key.face].key, one.key);
         page.first_caster = static_cast<std::uint32_t>(casters_.size());
         for (const std::uint32_t caster : tree_.castersOf(one)) {
             casters_.push_back(boxes_[caster].object);
@@ -288,6 +298,7 @@ void VirtualPartition::namePages(Memory& memory, Found& found)
 void VirtualPartition::project(std::size_t light, const VirtualPage& page, std::uint32_t side, View& view) const
 {
     projectPage(spaces_[found_[light].first_space + page.key.face], page.key, side, found_[light].border, view);
+    view.serves.page = page.square;
 }
 
 } // namespace gnomon

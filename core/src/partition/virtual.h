@@ -24,6 +24,7 @@ inline constexpr std::uint32_t kPageSide = 128;
 struct VirtualPage {
     std::uint32_t id = 0; // within its light: the same for as long as it is there
     PageKey key;
+    ViewPage square;
     std::uint32_t first_caster = 0; // see VirtualPartition::castersOf()
     std::uint32_t caster_count = 0;
 };
@@ -38,6 +39,7 @@ public:
         std::span<const std::uint32_t> receivers; // that the camera sees
         const Sight& sight;
         const Light& light;
+        std::uint32_t rested = 0; // frames in which nothing changed, except for requests
     };
 
     /// The lights of a frame. Those that are gone are forgotten, and nobody has pages yet.

@@ -26,7 +26,7 @@ void Frustums::forget()
     virtual_ = {};
 }
 
-void Frustums::divide(const Sights& sights, Plan& plan)
+void Frustums::divide(const Sights& sights, std::uint32_t rested, Plan& plan)
 {
     const Frame& frame = sights.frame();
     own_wishes_.assign(frame.lights.size(), {});
@@ -41,9 +41,9 @@ void Frustums::divide(const Sights& sights, Plan& plan)
         }
         if (setup.recipe.hasPages()) {
             if (setup.sees()) {
-                virtual_.divide(
-                    {frame, setup.recipe, setup.camera, sights.receiversOf(index), setup.sight, frame.lights[index]},
-                    index);
+                virtual_.divide({frame, setup.recipe, setup.camera, sights.receiversOf(index), setup.sight,
+                                 frame.lights[index], rested},
+                                index);
             }
         } else if (!setup.recipe.grows()) {
             own_wishes_[index] = decide(sights, index, planned);

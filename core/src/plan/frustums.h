@@ -40,7 +40,7 @@ struct LightPosition {
 class Frustums {
 public:
     /// Finds what lights want that may have maps, and says in the plan what was chosen for them.
-    void divide(const Sights& sights, Plan& plan);
+    void divide(const Sights& sights, std::uint32_t rested, Plan& plan);
     /// It is divided otherwise than in the frame before. Then it may have to wait (Schedule::foresee()).
     [[nodiscard]] bool differs(std::uint32_t light) const { return multi_.differs(light); }
     /// It is divided as in the frame before.

@@ -34,7 +34,8 @@ void MapContents::fill(const MapProjection& now, std::span<const std::uint32_t> 
     projection = now;
     version = now_version;
     if (still.capacity() < casters.size()) { // seldom, for pages are given to others that have a few casters more
-        still.reserve(std::bit_ceil(casters.size()));
+        constexpr std::size_t kFew = 64;
+        still.reserve(std::bit_ceil(std::max(casters.size(), kFew)));
     }
     still.assign(casters.begin(), casters.end());
     moving.clear();

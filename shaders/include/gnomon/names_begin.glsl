@@ -189,6 +189,8 @@
 #define kLeastLastPivot16 gnomon_kLeastLastPivot16
 #define kLeastLayerWidth gnomon_kLeastLayerWidth
 #define kLeastLift gnomon_kLeastLift
+#define kLeastOfPoint gnomon_kLeastOfPoint
+#define kLeastOfWholeLight gnomon_kLeastOfWholeLight
 #define kLeastPivot gnomon_kLeastPivot
 #define kLeastRays gnomon_kLeastRays
 #define kLeastShare gnomon_kLeastShare

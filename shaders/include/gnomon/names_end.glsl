@@ -189,6 +189,8 @@
 #undef kLeastLastPivot16
 #undef kLeastLayerWidth
 #undef kLeastLift
+#undef kLeastOfPoint
+#undef kLeastOfWholeLight
 #undef kLeastPivot
 #undef kLeastRays
 #undef kLeastShare

@@ -15,8 +15,8 @@
 
 // In the order of pack::TechniqueConstants.
 layout(constant_id = GNOMON_CONSTANT_ID) const int gnomon_kernel_width = 3; // see FilterInput
-layout(constant_id = GNOMON_CONSTANT_ID + 1) const int gnomon_disc_taps = 16;
-layout(constant_id = GNOMON_CONSTANT_ID + 2) const bool gnomon_automatic_bias = true;
+layout(constant_id = GNOMON_CONSTANT_ID + 1) const int gnomon_disc_taps = 16; // points of the disc
+layout(constant_id = GNOMON_CONSTANT_ID + 2) const bool gnomon_automatic_bias = true; // bias=auto
 layout(constant_id = GNOMON_CONSTANT_ID + 3) const int gnomon_moment_flags = 0;    // see MomentRule
 layout(constant_id = GNOMON_CONSTANT_ID + 4) const int gnomon_moment_sampling = 0; // gnomon::MapSampling
 layout(constant_id = GNOMON_CONSTANT_ID + 5) const int gnomon_moment_layers = 2;   // layers of lvsm

@@ -7,14 +7,14 @@
 #include "average.glsl"
 
 // In the order of FilterConstants (vulkan/src/filter_layout.h).
-layout(constant_id = 0) const int kFilter = 3;
-layout(constant_id = 1) const int kFlags = 0;
-layout(constant_id = 2) const int kLayers = 2;
-layout(constant_id = 3) const float kExponent = 1.0;
-layout(constant_id = 4) const float kExponentNegative = 1.0;
-layout(constant_id = 5) const float kMomentBias = 0.0;
-layout(constant_id = 6) const int kRadius = 1;
-layout(constant_id = 7) const int kChannels = 4;
+layout(constant_id = 0) const int kFilter = 3; // a number of filter_numbers.h
+layout(constant_id = 1) const int kFlags = 0; // MomentRule::flags
+layout(constant_id = 2) const int kLayers = 2; // layers of lvsm
+layout(constant_id = 3) const float kExponent = 1.0; // esm, evsm
+layout(constant_id = 4) const float kExponentNegative = 1.0; // evsm
+layout(constant_id = 5) const float kMomentBias = 0.0; // msm
+layout(constant_id = 6) const int kRadius = 1; // of the blur, texels
+layout(constant_id = 7) const int kChannels = 4; // of the map's format
 
 layout(push_constant) uniform Place
 {

@@ -372,7 +372,7 @@ uint pageAt(GpuLight light, vec4 p, vec3 toward)
 {
     vec3 far = abs(toward);
     uint axis = mix(mix(2u, 1u, far.y >= far.z), 0u, far.x >= max(far.y, far.z));
-    uvec2 root = GNOMON_PAGE_WORDS[light.options.y + axis + mix(0u, 3u, (-toward)[axis] < 0.0)];
+    uvec2 root = GNOMON_PAGE_WORDS[light.options.y + 2u * axis + mix(0u, 1u, toward[axis] > 0.0)];
     GpuView view = gnomon_views[root.y];
     vec2 at = vec2(dot(view.sector_x, p), dot(view.sector_y, p)) / dot(view.sector_w, p) + 1.0;
     uint node = root.x;

@@ -24,8 +24,8 @@ layout(push_constant) uniform Push
 } push;
 
 layout(constant_id = 0) const int kScale = 1; // pixels to a texel of the images that the blur works in
-layout(constant_id = 1) const bool kEdgeAware = true;
-layout(constant_id = 2) const bool kHasNormals = true;
+layout(constant_id = 1) const bool kEdgeAware = true; // edges of surfaces stay sharp
+layout(constant_id = 2) const bool kHasNormals = true; // normals is no stand-in
 layout(constant_id = 3) const int kKernel = 0; // screen_blur.h
 layout(constant_id = 4) const bool kInSoftware = false; // screen_surface.glsl
 

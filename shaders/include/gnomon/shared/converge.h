@@ -75,10 +75,16 @@ GN_FN real unpackCount(real packed)
 
 // As how many frames those before count at most, under a camera that moves: the mean is then read between pixels in
 // each frame, and each time blurred by some tenth of a pixel's square. `spread`: how far the pixels there are apart.
-// Where that is little the shadow's edge is so wide that much blur is none.
-GN_FN real mostInMotion(real spread)
+// Where that is little the shadow's edge is so wide that much blur is none. `least`: along the sharpest edges. Where
+// each frame sees the light from one point, kLeastOfPoint still count. Where it sees all of the light, the frame itself
+// is sharper than any mean: kLeastOfWholeLight.
+GN_CONST real kLeastOfWholeLight = real(0.0);
+GN_CONST real kLeastOfPoint = real(3.0);
+
+GN_FN real mostInMotion(real spread, real least)
 {
-    return clamp(real(0.6) / max(spread * spread, real(1e-4)), real(3.0), real(15.0));
+    real most = real(0.6) / max(spread * spread, real(1e-4));
+    return clamp(most - real(0.2) * (kLeastOfPoint - least), least, real(15.0));
 }
 
 // Weights of the four pixels around a place `part` of the way from the second to the third; they add up to 1. Straight

@@ -26,6 +26,7 @@ struct GpuConverge {
     GN_VEC4 size;     // by light: GpuLight::size.x
     GN_VEC4 pad;      // by light: mayShadow()'s, metres
     GN_VEC4 power;    // by light: confidencePower()
+    GN_VEC4 least;    // by light: mostInMotion()'s
     GN_VEC4 place[4]; // by light: GpuLight::place, of the light's own middle
     // x: how many boxes; y: 1 where the camera stands as it did; w: 1 where both frames have
     // normals
@@ -34,7 +35,7 @@ struct GpuConverge {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuConverge) == (4 + 4 + 4 + 1 + 2 * kMovedBoxes) * 16);
+static_assert(sizeof(GpuConverge) == (4 + 5 + 4 + 1 + 2 * kMovedBoxes) * 16);
 } // namespace gnomon::shared
 #endif
 #endif
