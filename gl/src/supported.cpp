@@ -4,6 +4,7 @@
 #include <gnomon/error.h>
 #include <gnomon/pack/frame_passes.h>
 
+#include <algorithm>
 #include <string>
 
 namespace gnomon::gl {
@@ -15,6 +16,9 @@ struct Refusal {
 };
 
 constexpr const char* kClassic = "is a classic technique, which the Vulkan backend alone draws";
+
+constexpr const char* kSdsm =
+    "partition sdsm fits cascades to the camera's depth on the GPU, which this backend does not do";
 
 /// Empty: nothing is refused.
 Refusal refusalOf(const ResolvedOptions& options)
@@ -29,8 +33,7 @@ Refusal refusalOf(const ResolvedOptions& options)
         return {std::string("partition paraboloid ") + kClassic, "take cube"};
     }
     if (technique.partition == Partition::sdsm) {
-        return {"partition sdsm fits cascades to the camera's depth on the GPU, which this backend does not do",
-                "take cascades"};
+        return {kSdsm, "take cascades"};
     }
     if (technique.soften == Soften::smoothies) {
         return {std::string("soften smoothies ") + kClassic, "take soften blur"};
@@ -65,6 +68,12 @@ void checkSupported(const char* tried, const Plan& plan)
         if (!refusal.found.empty()) {
             throw Error(tried, refusal.found, refusal.todo);
         }
+    }
+    const auto isFitted = [](const View& view) {
+        return view.projection.gpu_cascade != kNoIndex;
+    };
+    if (std::ranges::any_of(plan.views, isFitted)) { // partition auto, of quality best
+        throw Error(tried, kSdsm, "take quality balanced, or partition cascades");
     }
 }
 

@@ -191,8 +191,8 @@ TEST(GlMisuse, IsAnErrorWithASentence)
     const std::vector<Light> suns = lightsOf("sun");
     const Frame frame = vulkan.scene.frameOf(suns);
     for (const char* const refused :
-         {"partition=sdsm", "filter=depth-id", "filter=id", "filter=smoothies", "soften=smoothies", "soften=converge",
-          "motion=step-alternate", "caster-faces=midpoint", "mask-size=half",
+         {"partition=sdsm", "partition=auto quality=best", "filter=depth-id", "filter=id", "filter=smoothies",
+          "soften=smoothies", "soften=converge", "motion=step-alternate", "caster-faces=midpoint", "mask-size=half",
           "partition=cascades cascades.pass=layered", "filter=vsm blur=gaussian blur.path=fragment"}) {
         Planner planner(optionsFrom(refused));
         const Plan& plan = planner.plan(frame);
