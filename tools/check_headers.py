@@ -38,6 +38,8 @@ FOLDERS = [
     ("vulkan/classics/include/", ["vulkan/classics/include", "vulkan/include", "pack/include", "core/include", "shaders/include"]),
     ("vulkan/classics/src/", ["vulkan/classics/include", "vulkan/include", "pack/include", "core/include", "shaders/include",
                               "vulkan/classics/src", "vulkan/src"]),
+    ("gl/include/", ["gl/include", "pack/include", "core/include", "shaders/include"]),
+    ("gl/src/", ["gl/include", "pack/include", "core/include", "shaders/include", "gl/src"]),
     ("files/", [".", "core/include", "files/src"]),
     ("image/", [".", "core/include", "image/src"]),
     ("scene/src/", [".", "core/include", "scene/src"]),

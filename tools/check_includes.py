@@ -23,9 +23,10 @@ PROJECT_KINDS = [
     (r"^core/include/", "core-public"),
     (r"^pack/include/", "pack-public"),
     (r"^vulkan/include/", "vulkan-public"),
+    (r"^gl/include/", "gl-public"),
     (r"^vulkan/classics/include/", "classics"),
     (r"^vulkan/src/", "backend"),
-    (r"^(c|core|pack|vulkan)/", "private"),
+    (r"^(c|core|pack|vulkan|gl)/", "private"),
     (r"^(files|scene|worlds|image|host|truth|lab)/src/", "private"),
     (r"^lab/metrics", "metrics"),
     (r"^lab/score/(?!src/)", "score"),
@@ -35,7 +36,7 @@ PROJECT_KINDS = [
 ]
 # The group of any other header, by its name.
 FOREIGN_KINDS = [
-    (r"^\w+_spirv\.h$|\.(vert|frag|comp)\.inc$", "spirv"),
+    (r"^\w+_(spirv|glsl_texts)\.h$|\.(vert|frag|comp)\.inc$", "spirv"),
     (r"^vulkan/", "vulkan-api"),
     (r"^glm/", "glm"),
     (r"^imgui\w*\.h$", "imgui"),
@@ -80,6 +81,9 @@ RULES = [
      "a public header shows nothing private"),
     ("vulkan/classics/", STD | PUBLIC | {"classics", "backend", "glm", "vulkan-api", "shared", "shader-lib", "spirv"},
      "classic techniques are made of the backend, which does not know them"),
+    ("gl/include/", {"std", "glm", "core-geometry", "core-public", "pack-public"}, "a public header shows nothing private"),
+    ("gl/", STD | {"core-geometry", "core-public", "pack-public", "gl-public", "glm", "graphics", "shared", "spirv"},
+     "a backend knows core and pack, and no other backend"),
     ("files/", STD | {"core-geometry"}, "files know errors, nothing else"),
     ("image/", STD | {"core-geometry", "files", "png", "exr"}, "images know files and errors, nothing else"),
     ("scene/", STD | {"glm", "core-geometry", "files", "png", "jpeg", "webp", "draco", "meshopt", "json", "xxhash"},
@@ -97,13 +101,13 @@ RULES = [
     ("lab/", ABOVE | {"gd"}, "the lab knows public headers"),
     ("app/", ABOVE | {"app", "worlds", "cli", "text", "shared"}, "the program knows public headers, and widgets in app/src/view alone"),
     ("app/src/view/", ABOVE | {"app", "worlds", "imgui"}, "the window's panels are of Dear ImGui"),
-    ("examples/", STD | PUBLIC | {"c-public", "glm", "vulkan-api", "spirv", "shared", "shader-lib"},
+    ("examples/", STD | PUBLIC | {"c-public", "gl-public", "glm", "vulkan-api", "graphics", "spirv", "shared", "shader-lib"},
      "an example is an engine: it has the library's public headers and nothing else of ours"),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
 SUFFIXES = {".c", ".cpp", ".h", ".glsl", ".vert", ".frag", ".comp", ".geom"}
-PUBLIC_FOLDERS = ("core/include", "pack/include", "c/include", "vulkan/include", "vulkan/classics/include", "shaders/include", "")
+PUBLIC_FOLDERS = ("core/include", "pack/include", "c/include", "vulkan/include", "vulkan/classics/include", "gl/include", "shaders/include", "")
 
 
 def rule_for(path: str):

@@ -33,7 +33,8 @@ SITE = (*CHECKS, "site")
 KIT = (*CHECKS, "kit", "compilers of the kit")
 # (beginning of a path, which sections its files may use); the longest counts. Objects lie in the folders of their targets.
 SECTIONS = [("", CHECKS), ("cmake/", PROGRAM), ("core/", LIBRARY), ("pack/", LIBRARY), ("vulkan/", LIBRARY), ("shaders/", LIBRARY),
-            ("examples/", LIBRARY), *((f"{name}/", PROGRAM) for name in ("files", "image", "scene", "worlds", "truth", "host", "lab", "app")),
+            ("gl/", TESTS), ("examples/", LIBRARY), ("examples/gl_host/", TESTS),
+            *((f"{name}/", PROGRAM) for name in ("files", "image", "scene", "worlds", "truth", "host", "lab", "app")),
             ("tests/", TESTS), ("tests/fuzz/", CHECKS), ("tests/site/", SITE), ("kit/", KIT), ("tests/kit/", KIT),
             ("tools/make_", SITE), ("tools/site_pages.py", SITE)]
 FOLDERS = ("/usr/bin", "/usr/sbin", "/bin", "/sbin", "/usr/games")

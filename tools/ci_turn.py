@@ -31,7 +31,7 @@ TURN = "it is its turn"
 BUILT = "ctest --test-dir build --output-on-failure --no-tests=error -j $JOBS -L "
 
 
-LIBRARIES = ("core/", "pack/", "c/", "vulkan/", "files/", "image/", "scene/", "worlds/", "truth/", "host/", "lab/", "app/")
+LIBRARIES = ("core/", "pack/", "c/", "vulkan/", "gl/", "files/", "image/", "scene/", "worlds/", "truth/", "host/", "lab/", "app/")
 
 
 class Item(NamedTuple):
@@ -49,7 +49,7 @@ ITEMS = {
     "browser": Item(BUILT + "browser", paths=("app/pages/", "site/", "tests/page/", "tests/site/", "tools/make_site.py",
                                               "tools/site_pages.py", "tools/doxygen_filter.py", "lab/src/report"), built=True),
     "package": Item(BUILT + "package", paths=("cmake/", "CMakeLists.txt", "packaging/", "tests/package/", "examples/",
-                                              "core/include/", "pack/include/", "c/", "vulkan/include/", "vulkan/classics/"), built=True),
+                                              "core/include/", "pack/include/", "c/", "vulkan/include/", "vulkan/classics/", "gl/include/"), built=True),
     "fuzz": Item("make -s fuzz JOBS=$JOBS FUZZ_SECONDS=60", parts=("scene/", "image/", "truth/"),
                  paths=("tests/fuzz/", "tools/fuzz.sh", "app/src/preset", "app/src/setting", "app/src/bench_figures")),
     "kit": Item("make -s kit-check BUILT=1", paths=("kit/", "tests/kit/", "shaders/"), built=True),
@@ -64,7 +64,7 @@ ITEMS = {
     "window": Item(BUILT + "long -R '^view'", paths=("host/window/", "app/src/view/", "tests/view/"), built=True),
 }
 TURNS = {name: item for name, item in ITEMS.items() if item.takes_turns}
-PUBLIC_KIND = {"core": "core-public", "pack": "pack-public", "c": "c-public", "vulkan": "vulkan-public"}
+PUBLIC_KIND = {"core": "core-public", "pack": "pack-public", "c": "c-public", "vulkan": "vulkan-public", "gl": "gl-public"}
 
 
 def git(*arguments: str) -> str:

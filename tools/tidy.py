@@ -22,7 +22,7 @@ from compile_commands import commands_of, flags_of
 from sources import project_root
 
 MOST_TOGETHER = 30
-FOLDERS = ["core/src", "c/src", "vulkan/src", "vulkan/classics/src", "files/src", "image/src", "scene/src", "worlds/src", "host/src", "app/src"]
+FOLDERS = ["core/src", "c/src", "vulkan/src", "vulkan/classics/src", "gl/src", "files/src", "image/src", "scene/src", "worlds/src", "host/src", "app/src"]
 ALIKE = ["--quiet", "--warnings-as-errors=*"]
 # The commands may be GCC's, with warnings that clang has not.
 FOREIGN = "-Wno-unknown-warning-option"

@@ -62,4 +62,18 @@ std::uint32_t fewViewsOf(const Plan& plan, const LightPlan& light)
     return few == 0 ? 0 : count == 1 ? 1 : count <= few ? few : shared::kFewViews;
 }
 
+MaskConstants maskConstants(const ResolvedOptions& options, const MaskImages& images)
+{
+    const Partition partition = options.technique().partition;
+    MaskConstants constants;
+    constants.technique = techniqueConstants(options);
+    constants.has_normals = images.normals ? 1 : 0;
+    constants.has_smooth = images.smooth ? 1 : 0;
+    constants.has_ids = images.ids ? 1 : 0;
+    constants.paraboloid = partition == Partition::paraboloid ? 1 : 0;
+    constants.layered = partition == Partition::multi && options.multi().divide == MultiDivide::receivers ? 1 : 0;
+    constants.pages = hasPages(options) ? 1 : 0;
+    return constants;
+}
+
 } // namespace gnomon::pack

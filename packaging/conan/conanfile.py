@@ -58,7 +58,7 @@ class GnomonConan(ConanFile):
 
     @staticmethod
     def cmake_options():
-        return {"GNOMON_PROGRAM": False, "GNOMON_TESTS": False, "GNOMON_INSTALL": True}
+        return {"GNOMON_PROGRAM": False, "GNOMON_TESTS": False, "GNOMON_INSTALL": True, "GNOMON_GL": False}
 
     def build(self):
         cmake = CMake(self)

@@ -94,9 +94,13 @@ class Installed(Case):
 
     def test_component_that_is_unknown_is_named(self):
         self.fails(self.project("find_package(gnomon REQUIRED COMPONENTS core volcano)"),
-                   'gnomon has no component "volcano"; it has core, pack, c, vulkan, vulkan_classics, shaders')
+                   'gnomon has no component "volcano"; it has core, pack, c, vulkan, vulkan_classics, ' +
+                   ("gl, shaders" if self.has_gl() else "shaders"))
         self.passes(self.project("find_package(gnomon REQUIRED OPTIONAL_COMPONENTS volcano core)",
                                  "if(gnomon_volcano_FOUND OR NOT gnomon_core_FOUND)", "message(FATAL_ERROR no)", "endif()"))
+
+    def has_gl(self) -> bool:
+        return any(self.prefix.rglob("gnomon-gl.cmake"))
 
     def test_another_minor_version_is_refused(self):
         for version in ("0.0", "0.2", "1.0", "0.1.9"):
@@ -134,6 +138,13 @@ class Installed(Case):
         self.passes(run(OPTIONS.cxx, "-std=c++20", build / "classics.cpp", "-o", build / "classics",
                         *flags("--cflags", "--libs", "gnomon-vulkan_classics")))
         self.passes(run(build / "classics"))
+        if self.has_gl():
+            text = ("#include <gnomon/gl/shadow_renderer.h>\nint main()\n{\n    try {\n        gnomon::gl::ShadowRenderer r({});\n"
+                    "    } catch (const std::exception&) {\n        return 0;\n    }\n    return 1;\n}\n")
+            (build / "gl.cpp").write_text(text, encoding="utf-8")
+            self.passes(run(OPTIONS.cxx, "-std=c++20", build / "gl.cpp", "-o", build / "gl",
+                            *flags("--cflags", "--libs", "gnomon-gl")))
+            self.passes(run(build / "gl"))
         # A host in C, which a compiler of C links.
         host = next(self.prefix.rglob("examples/c_host/c_host.c"))
         self.passes(run("cc", "-std=c99", host, "-o", build / "c_host", *flags("--cflags", "--libs", "gnomon-c")))
@@ -145,7 +156,7 @@ class Installed(Case):
                          ["0.1.0"] * 6)
 
     def test_examples(self):
-        for name in ("minimal_host", "forward_host"):
+        for name in ("minimal_host", "forward_host") + (("gl_host",) if self.has_gl() else ()):
             source, build = next(self.prefix.rglob(f"examples/{name}")), folder(name)
             self.passes(configure(source, build, self.found))
             self.passes(run("cmake", "--build", build))

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The backend's notes of its maps' texels: maps recover after a skipped frame, with a new renderer, and when they come
-// back to sight.
+// The notes of a backend of its maps' texels: maps recover after a skipped frame, with a new renderer, and when they
+// come back to sight.
 #include "fixture.h"
 
-#include "map_notes.h"
+#include <gnomon/pack/map_notes.h>
 
 #include <gtest/gtest.h>
 
 namespace gnomon::test {
 namespace {
 
-using vulkan::MapNotes;
-using vulkan::ViewWork;
+using pack::MapNotes;
+using pack::ViewWork;
 
 View viewOf(MapId map, Tile tile, ContentNumber presumes, ContentNumber makes)
 {

@@ -73,7 +73,7 @@ TEST(MipLevels, areThoseThatATileCanHave)
 
 TEST(ScratchStrips, areAsNarrowAsBlocksOrHaveALayerEach)
 {
-    using vulkan::stripsOf;
+    using pack::stripsOf;
     EXPECT_EQ(stripsOf(2048, 1, 2048).width, 32U);
     EXPECT_EQ(stripsOf(2048, 1, 2048).count, 64U);
     EXPECT_EQ(stripsOf(17, 4, 2048).count, 1U);

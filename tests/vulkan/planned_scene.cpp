@@ -105,8 +105,7 @@ Frame PlannedScene::frameOf(std::span<const Light> lights) const
     return frame;
 }
 
-std::vector<std::byte> PlannedScene::draw(Drawing& drawing, const Plan& plan, std::uint32_t slot,
-                                          vulkan::Profiler* profiler)
+void PlannedScene::run(Drawing& drawing, const Plan& plan, std::uint32_t slot, vulkan::Profiler* profiler)
 {
     (void)drawing.renderer.prepare(plan, inputs_.extent);
     const auto transforms = scene_.transforms();
@@ -120,6 +119,12 @@ std::vector<std::byte> PlannedScene::draw(Drawing& drawing, const Plan& plan, st
         drawing.renderer.recordMaps(commands, slot, plan, drawing.drawer.callback(), profiler);
         drawing.renderer.recordMask(commands, slot, plan, inputs_, profiler);
     });
+}
+
+std::vector<std::byte> PlannedScene::draw(Drawing& drawing, const Plan& plan, std::uint32_t slot,
+                                          vulkan::Profiler* profiler)
+{
+    run(drawing, plan, slot, profiler);
     const vulkan::ImageRef mask = drawing.renderer.mask();
     const std::uint32_t layers = drawing.compact.channels > 0 ? mask.layers : plan.mask_layers;
     std::vector<std::byte> all;

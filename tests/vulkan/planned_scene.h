@@ -41,7 +41,9 @@ public:
     void nameContent(ContentNumber content) { inputs_.content = content; }
     /// A box moves, for maps alone: the picture stays.
     void moveCaster();
-    /// All layers of the mask, one after the other.
+    /// Draws maps and mask, and waits for them.
+    void run(Drawing& drawing, const Plan& plan, std::uint32_t slot = 0, vulkan::Profiler* profiler = nullptr);
+    /// run(), and all layers of the mask, one after the other.
     [[nodiscard]] std::vector<std::byte> draw(Drawing& drawing, const Plan& plan, std::uint32_t slot = 0,
                                               vulkan::Profiler* profiler = nullptr);
     [[nodiscard]] const SceneMesh& mesh() const { return mesh_; }

@@ -194,11 +194,18 @@ void partSides(Gpu& gpu, SceneMesh& mesh)
     mesh.geometry.pieces = bufferOf(gpu, pieces, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
 }
 
+TestMesh testMesh()
+{
+    TestMesh mesh;
+    mesh.positions = meshPositions();
+    mesh.indices.assign(kGroundIndices.begin(), kGroundIndices.end());
+    mesh.indices.insert(mesh.indices.end(), kCube.begin(), kCube.end());
+    return mesh;
+}
+
 SceneMesh uploadMesh(Gpu& gpu, const Scene& scene)
 {
-    const std::vector<glm::vec3> positions = meshPositions();
-    std::vector<std::uint32_t> indices(kGroundIndices.begin(), kGroundIndices.end());
-    indices.insert(indices.end(), kCube.begin(), kCube.end());
+    const auto [positions, indices] = testMesh();
 
     SceneMesh mesh;
     const TestBuffer vertex_buffer =

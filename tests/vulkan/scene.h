@@ -48,6 +48,13 @@ struct SceneEdges {
 };
 [[nodiscard]] SceneEdges sceneEdges();
 
+/// The scene's mesh: a quad of 6 indices from vertex 0 on, then a cube of 36 from vertex 4 on.
+struct TestMesh {
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> indices;
+};
+[[nodiscard]] TestMesh testMesh();
+
 /// The scene's mesh (a unit quad and a unit cube) on the GPU and what CasterDrawer needs.
 struct SceneMesh {
     vulkan::CasterGeometry geometry;

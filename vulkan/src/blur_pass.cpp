@@ -40,7 +40,7 @@ BlurPass::BlurPass(FilterLayout& layout, const ResolvedOptions& options, VkForma
       image_layers_(imageLayersPerMap(options.filter(), moments_))
 {
     assert(radius_ > 0 && radius_ <= shared::kMostBlurRadius);
-    const FilterConstants constants = filterConstants(options);
+    const pack::FilterConstants constants = pack::filterConstants(options);
     logarithms_ = (constants.flags & shared::kMomentLogSpace) != 0;
     along_x_ = layout.makeCompute(moments_.samples == 1 ? spirv::blur_moments_comp : spirv::blur_moments_samples_comp,
                                   constants, "moments blurred along x");
@@ -81,9 +81,7 @@ void BlurPass::record(const FilterStep& step, const MomentImages& images) const
 {
     const Device& device = layout_.device();
     clearFlags(device, step.commands, images.blocks.buffer());
-    shared::FilterPassPlace place = placeOf(step);
-    place.source.x = 0;
-    place.source.y = 0;
+    const shared::FilterPassPlace place = pack::placeFromDepths(step);
     layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_COMPUTE, along_x_.get(), set_x_, step.counts_offset, place);
     device.vk.CmdDispatch(step.commands, static_cast<std::uint32_t>(place.size.z),
                           static_cast<std::uint32_t>(place.size.w), step.image_layers);
@@ -98,16 +96,16 @@ void BlurPass::record(const FilterStep& step, const MomentImages& images) const
 
 void BlurPass::recordBlocks(const FilterStep& step) const
 {
-    const shared::FilterPassPlace place = placeOf(step);
+    const shared::FilterPassPlace place = pack::placeOf(step);
     layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_COMPUTE, blocks_.get(), set_y_, step.counts_offset, place);
-    layout_.device().vk.CmdDispatch(step.commands, groupsOf(static_cast<std::uint32_t>(place.size.z), 8),
-                                    groupsOf(static_cast<std::uint32_t>(place.size.w), 8), 1);
+    layout_.device().vk.CmdDispatch(step.commands, pack::groupsOf(static_cast<std::uint32_t>(place.size.z), 8),
+                                    pack::groupsOf(static_cast<std::uint32_t>(place.size.w), 8), 1);
 }
 
 void BlurPass::recordCompute(const FilterStep& step) const
 {
     const Device& device = layout_.device();
-    const shared::FilterPassPlace place = placeOf(step);
+    const shared::FilterPassPlace place = pack::placeOf(step);
     waitForShaders(device, step.commands);
     layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_COMPUTE, along_y_.get(), set_y_, step.counts_offset, place);
     device.vk.CmdDispatch(step.commands, static_cast<std::uint32_t>(place.size.z),
@@ -138,7 +136,7 @@ void BlurPass::recordFragment(const FilterStep& step, const MomentImages& images
         info.layerCount = 1;
         info.colorAttachmentCount = 1;
         info.pColorAttachments = &colour;
-        shared::FilterPassPlace place = placeOf(step);
+        shared::FilterPassPlace place = pack::placeOf(step);
         place.source.z = static_cast<int>(i);
         device.vk.CmdBeginRendering(step.commands, &info);
         setViewport(device, step.commands, area);

@@ -138,8 +138,8 @@ void CasterDrawer::Impl::reserve(const Plan& plan, Slot& begun)
             const std::uint32_t for_tints =
                 tintsWith(optionsOf(plan, plan.views[i])) ? 2 : 0; // blockers, and blended casters
             const std::uint32_t passes = (isDrawnTwice(optionsOf(plan, plan.views[i])) ? 2 : 1) + for_tints;
-            for (const CasterShare share : {CasterShare::still, CasterShare::moving}) {
-                const auto list = castersOf(plan, plan.views[i], share);
+            for (const pack::CasterShare share : {pack::CasterShare::still, pack::CasterShare::moving}) {
+                const auto list = pack::castersOf(plan, plan.views[i], share);
                 const std::uint32_t count = batcher.instanceCount(list);
                 all_instances += VkDeviceSize{passes} * count;
                 all_commands += VkDeviceSize{passes} * std::min(count, batcher.maxCommands());
@@ -311,7 +311,7 @@ void CasterDrawer::beginFrame(std::uint32_t slot, const Plan& plan, const Caster
                               std::span<const Rows3x4> world_from_object)
 {
     checkSlot(kBeginning, slot, static_cast<std::uint32_t>(impl_->slots.size()));
-    checkPlan(kBeginning, plan);
+    pack::checkPlan(kBeginning, plan);
     if (world_from_object.size() < impl_->object_count) {
         refuseUse(kBeginning, "there are fewer transforms than objects", "give one for each object of setScene()");
     }

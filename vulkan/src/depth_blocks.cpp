@@ -4,6 +4,7 @@
 #include "draw_view.h"
 #include "pipelines.h"
 
+#include <gnomon/pack/filter_passes.h>
 #include <gnomon/pack/filter_rule.h>
 
 #include <gnomon/shared/map_blocks.h>
@@ -16,12 +17,6 @@ namespace gnomon::vulkan {
 namespace {
 
 constexpr std::uint32_t kLevelsOfPass = shared::kBlockLevelsOfPass;
-constexpr std::uint32_t kGroupReads = shared::kBlockGroup << kLevelsOfPass; // texels or blocks along x and y
-
-std::uint32_t divideUp(std::uint32_t a, std::uint32_t b)
-{
-    return (a + b - 1) / b;
-}
 
 } // namespace
 
@@ -63,7 +58,7 @@ void DepthBlocks::setMaps(const Image& maps)
 
     passes_.clear();
     from_maps_.sets.reset(1);
-    from_blocks_.sets.reset(divideUp(info.levels, kLevelsOfPass));
+    from_blocks_.sets.reset(pack::blockPassCount(info.levels));
     addPass(from_maps_, 0,
             DescriptorSets::image(0, nearest_.get(), maps.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL));
     for (std::uint32_t first = kLevelsOfPass; first < info.levels; first += kLevelsOfPass) {
@@ -80,8 +75,7 @@ void DepthBlocks::addPass(Kind& kind, std::uint32_t first_level, const Descripto
         writes[1 + i] = DescriptorSets::image(1 + i, VK_NULL_HANDLE, image_.level(std::min(first_level + i, last)),
                                               VK_IMAGE_LAYOUT_GENERAL);
     }
-    const Pass& pass = passes_.emplace_back(Pass{&kind, kind.sets.take("blocks of shadow maps"), first_level,
-                                                 std::min(kLevelsOfPass, last + 1 - first_level)});
+    const Pass& pass = passes_.emplace_back(Pass{&kind, kind.sets.take("blocks of shadow maps"), first_level});
     kind.sets.write(pass.set, writes);
 }
 
@@ -149,34 +143,23 @@ void DepthBlocks::recordArea(VkCommandBuffer commands, const VkRect2D& area, std
     barrier.source_access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
     barrier.target_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
     barrier.target_access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-    for (const Pass& pass : passes_) {
-        dispatch(commands, pass, area, layer);
+    for (std::uint32_t i = 0; i < passes_.size(); ++i) {
+        dispatch(commands, passes_[i],
+                 pack::blockPass(i, {maps_.width, maps_.height},
+                                 {layer, static_cast<std::uint32_t>(area.offset.x),
+                                  static_cast<std::uint32_t>(area.offset.y), area.extent.width, area.extent.height}));
         recordBarrier(device_, commands, barrier); // the next pass reads them, or other layers are written
     }
 }
 
-void DepthBlocks::dispatch(VkCommandBuffer commands, const Pass& pass, const VkRect2D& area, std::uint32_t layer)
+void DepthBlocks::dispatch(VkCommandBuffer commands, const Pass& pass, const pack::BlockPass& work)
 {
-    const std::uint32_t side = kGroupReads << pass.first_level; // texels of a group
-    const auto first = [&](std::int32_t texel) {
-        return static_cast<std::uint32_t>(texel) / side;
-    };
-    const auto groups = [&](std::int32_t begin, std::uint32_t size) {
-        return divideUp(static_cast<std::uint32_t>(begin) + size, side) - first(begin);
-    };
-    // Texels beyond the maps' end repeat the last ones.
-    const auto last = [&](std::uint32_t texels) {
-        return static_cast<std::int32_t>(divideUp(texels, 1U << pass.first_level)) - 1;
-    };
-    const Push push{{static_cast<std::int32_t>(first(area.offset.x)), static_cast<std::int32_t>(first(area.offset.y)),
-                     static_cast<std::int32_t>(layer), static_cast<std::int32_t>(pass.levels)},
-                    {last(maps_.width), last(maps_.height), 0, 0}};
+    const Push push{work.first, work.last};
     device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass.kind->pipeline.get());
     device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass.kind->layout.get(), 0, 1, &pass.set,
                                      0, nullptr);
     device_.vk.CmdPushConstants(commands, pass.kind->layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
-    device_.vk.CmdDispatch(commands, groups(area.offset.x, area.extent.width),
-                           groups(area.offset.y, area.extent.height), 1);
+    device_.vk.CmdDispatch(commands, work.groups_x, work.groups_y, 1);
 }
 
 } // namespace gnomon::vulkan

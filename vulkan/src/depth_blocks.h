@@ -8,6 +8,10 @@
 #include "map_step.h"
 #include "samplers.h"
 
+#include <gnomon/pack/filter_passes.h>
+
+#include <array>
+
 namespace gnomon::vulkan {
 
 class DepthBlocks final : public MapStep {
@@ -27,15 +31,14 @@ private:
         PipelineLayout layout;
     };
     struct Push {
-        std::int32_t first[4];
-        std::int32_t last[4];
+        std::array<std::int32_t, 4> first;
+        std::array<std::int32_t, 4> last;
     };
     // Makes kBlockLevelsOfPass levels, or those that are left.
     struct Pass {
         const Kind* kind = nullptr;
         VkDescriptorSet set = VK_NULL_HANDLE;
         std::uint32_t first_level = 0; // mip level
-        std::uint32_t levels = 0;
     };
 
     [[nodiscard]] Kind makeKind(VkDescriptorType source, std::span<const std::uint32_t> code, VkPipelineCache cache);
@@ -46,7 +49,7 @@ private:
     /// The blocks of one layer that texels of `area` lie in.
     void recordArea(VkCommandBuffer commands, const VkRect2D& area, std::uint32_t layer);
     void addPass(Kind& kind, std::uint32_t first_level, const DescriptorSets::Write& source);
-    void dispatch(VkCommandBuffer commands, const Pass& pass, const VkRect2D& area, std::uint32_t layer);
+    void dispatch(VkCommandBuffer commands, const Pass& pass, const pack::BlockPass& work);
 
     Device& device_;
     Image image_;

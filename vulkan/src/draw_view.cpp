@@ -34,15 +34,6 @@ void beginViewLabel(const Device& device, VkCommandBuffer commands, const Plan& 
     device.beginLabel(commands, label);
 }
 
-std::span<const std::uint32_t> castersOf(const Plan& plan, const View& view, CasterShare share)
-{
-    assert(view.casters.first + view.casters.count <= plan.casters.size() && view.casters.still <= view.casters.count);
-    const auto all = std::span(plan.casters).subspan(view.casters.first, view.casters.count);
-    return share == CasterShare::all     ? all
-           : share == CasterShare::still ? all.first(view.casters.still)
-                                         : all.subspan(view.casters.still);
-}
-
 MapPass passOf(const MapJob& job, std::uint32_t index, VkColorComponentFlags colour_mask)
 {
     const View& view = job.plan.views[index];
@@ -63,23 +54,16 @@ MapPass passOf(const MapJob& job, std::uint32_t index, VkColorComponentFlags col
     return pass;
 }
 
-void drawView(const MapJob& job, std::uint32_t index, CasterShare share, VkColorComponentFlags colour_mask)
+void drawView(const MapJob& job, std::uint32_t index, pack::CasterShare share, VkColorComponentFlags colour_mask)
 {
     MapPass pass = passOf(job, index, colour_mask);
-    pass.casters = castersOf(job.plan, job.plan.views[index], share);
+    pass.casters = pack::castersOf(job.plan, job.plan.views[index], share);
     job.draw(pass);
 }
 
 VkRect2D redrawnArea(const View& view, bool all)
 {
-    const VkRect2D tile = areaOf(view.place.tile);
-    if (all) {
-        return tile;
-    }
-    const TexelRect& dirty = view.contents.dirty;
-    assert(dirty.x + dirty.width <= view.place.tile.width && dirty.y + dirty.height <= view.place.tile.height);
-    return {{tile.offset.x + static_cast<std::int32_t>(dirty.x), tile.offset.y + static_cast<std::int32_t>(dirty.y)},
-            {dirty.width, dirty.height}};
+    return areaOf(pack::redrawnPart(view, all));
 }
 
 VkRect2D widened(const VkRect2D& area, const Tile& tile, std::int32_t x, std::int32_t y)
@@ -106,7 +90,7 @@ bool isDrawnTogether(const Plan& plan, std::uint32_t view)
     return optionsOf(plan, plan.views[view]).cascades().pass == CascadePass::layered;
 }
 
-std::uint32_t drawnTogether(const Plan& plan, std::span<const ViewWork> work, std::uint32_t first)
+std::uint32_t drawnTogether(const Plan& plan, std::span<const pack::ViewWork> work, std::uint32_t first)
 {
     const std::uint32_t most = isDrawnTogether(plan, first) ? viewsTogether(plan, first, true) : 1;
     std::uint32_t count = 0;

@@ -18,13 +18,10 @@ inline constexpr VkPipelineStageFlags2 kMapReaders =
 /// Viewport and scissor.
 void setViewport(const Device& device, VkCommandBuffer commands, const Tile& tile);
 void beginViewLabel(const Device& device, VkCommandBuffer commands, const Plan& plan, std::uint32_t view);
-/// Which casters of a view.
-enum class CasterShare : std::uint8_t { all, still, moving };
-[[nodiscard]] std::span<const std::uint32_t> castersOf(const Plan& plan, const View& view, CasterShare share);
 /// The pass of a view, without its casters.
 [[nodiscard]] MapPass passOf(const MapJob& job, std::uint32_t view, VkColorComponentFlags colour_mask);
 /// Calls the host's callback for them. Rendering has begun.
-void drawView(const MapJob& job, std::uint32_t view, CasterShare share, VkColorComponentFlags colour_mask);
+void drawView(const MapJob& job, std::uint32_t view, pack::CasterShare share, VkColorComponentFlags colour_mask);
 /// The part of the map's tile that is drawn again: all of it, or ViewContents::dirty for a map that is restored.
 [[nodiscard]] VkRect2D redrawnArea(const View& view, bool all);
 /// `area` widened by x and y texels on each side, within the tile.
@@ -35,6 +32,6 @@ void drawView(const MapJob& job, std::uint32_t view, CasterShare share, VkColorC
 [[nodiscard]] bool isDrawnTogether(const Plan& plan, std::uint32_t view);
 /// How many views from `first` on one pass draws (viewsTogether()), of those that are to be drawn; 1 where the options
 /// ask for one pass each.
-[[nodiscard]] std::uint32_t drawnTogether(const Plan& plan, std::span<const ViewWork> work, std::uint32_t first);
+[[nodiscard]] std::uint32_t drawnTogether(const Plan& plan, std::span<const pack::ViewWork> work, std::uint32_t first);
 
 } // namespace gnomon::vulkan

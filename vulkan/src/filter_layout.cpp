@@ -5,8 +5,6 @@
 #include "samplers.h"
 #include "specialisation.h"
 
-#include <gnomon/pack/filter_rule.h>
-
 #include <gnomon_spirv.h>
 
 #include <gnomon/shared/gpu_structs.h>
@@ -16,10 +14,6 @@
 namespace gnomon::vulkan {
 namespace {
 
-// Shaders have room for everything that options allow.
-static_assert(kMaxBlurRadius == shared::kMostBlurRadius && kMaxBlurRadius < shared::kBlockTexels);
-static_assert(kMaxDepthLayers == shared::kDepthLayers && kMaxDepthLayers == 2 * shared::kMostImageLayers);
-
 enum Binding : std::uint32_t { kSource, kTarget, kBlocks, kDepthLayers, kKernel, kCounts, kBindingCount };
 constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
@@ -27,37 +21,7 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC};
 constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-std::int32_t channelsOf(MapFormat format)
-{
-    switch (format) {
-    case MapFormat::r16f:
-    case MapFormat::r32f:
-        return 1;
-    case MapFormat::rg16:
-    case MapFormat::rg16f:
-    case MapFormat::rg32f:
-        return 2;
-    default:
-        return 4;
-    }
-}
-
 } // namespace
-
-FilterConstants filterConstants(const ResolvedOptions& options)
-{
-    const shared::MomentRule rule = pack::momentRuleOf(options);
-    FilterConstants constants;
-    constants.filter = static_cast<std::int32_t>(options.filter());
-    constants.flags = rule.flags;
-    constants.layers = rule.layers;
-    constants.exponent = rule.exponent;
-    constants.exponent_negative = rule.exponent_negative;
-    constants.moment_bias = rule.moment_bias;
-    constants.radius = static_cast<std::int32_t>(blurRadius(options.moments()));
-    constants.channels = channelsOf(options.format());
-    return constants;
-}
 
 FilterLayout::FilterLayout(Device& device, VkPipelineCache cache)
     : device_(device), cache_(cache), sets_(device, kTypes, kStages),
@@ -82,14 +46,14 @@ VkDescriptorSet FilterLayout::makeSet(const FilterBindings& bindings)
     return set;
 }
 
-Pipeline FilterLayout::makeCompute(std::span<const std::uint32_t> spirv, const FilterConstants& constants,
+Pipeline FilterLayout::makeCompute(std::span<const std::uint32_t> spirv, const pack::FilterConstants& constants,
                                    const char* name)
 {
     const Specialisation specialisation(constants);
     return makeComputePipeline(device_, {spirv, specialisation.info(), layout_.get(), cache_, name});
 }
 
-Pipeline FilterLayout::makeFragment(std::span<const std::uint32_t> spirv, const FilterConstants& constants,
+Pipeline FilterLayout::makeFragment(std::span<const std::uint32_t> spirv, const pack::FilterConstants& constants,
                                     VkFormat format, const char* name)
 {
     const ShaderModule vertex = makeShader(device_, spirv::mask_vert);

@@ -5,22 +5,9 @@
 
 #include "descriptors.h"
 
-#include <gnomon/shared/filter_pass.h>
+#include <gnomon/pack/filter_passes.h>
 
 namespace gnomon::vulkan {
-
-/// The constant_ids of filter_pass.glsl, four bytes each, in their order.
-struct FilterConstants {
-    std::int32_t filter = 0;
-    std::int32_t flags = 0;
-    std::int32_t layers = 0;
-    float exponent = 0.0F;
-    float exponent_negative = 0.0F;
-    float moment_bias = 0.0F;
-    std::int32_t radius = 0;
-    std::int32_t channels = 4; // channels of the format
-};
-[[nodiscard]] FilterConstants filterConstants(const ResolvedOptions& options);
 
 /// The bindings of one set. All are always given [drivers: unwritten].
 struct FilterBindings {
@@ -40,10 +27,10 @@ public:
     /// Room for this many sets, all of them new. Sets that were made before are retired.
     void reset(std::uint32_t sets) { sets_.reset(sets); }
     [[nodiscard]] VkDescriptorSet makeSet(const FilterBindings& bindings);
-    [[nodiscard]] Pipeline makeCompute(std::span<const std::uint32_t> spirv, const FilterConstants& constants,
+    [[nodiscard]] Pipeline makeCompute(std::span<const std::uint32_t> spirv, const pack::FilterConstants& constants,
                                        const char* name);
     /// A triangle that covers the viewport, into one colour attachment.
-    [[nodiscard]] Pipeline makeFragment(std::span<const std::uint32_t> spirv, const FilterConstants& constants,
+    [[nodiscard]] Pipeline makeFragment(std::span<const std::uint32_t> spirv, const pack::FilterConstants& constants,
                                         VkFormat format, const char* name);
     /// Binds everything; `counts_offset` is that of BlurCounts in their buffer.
     void bind(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipeline pipeline, VkDescriptorSet set,

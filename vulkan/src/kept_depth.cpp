@@ -109,7 +109,7 @@ void KeptDepth::draw(const MapJob& job, std::uint32_t index)
     recordBarrier(device_, job.commands, barrier);
     beginDepthRendering(device_, job.commands, view.place.tile, image_.layer(view.contents.kept_layer),
                         VK_ATTACHMENT_LOAD_OP_CLEAR);
-    drawView(job, index, CasterShare::still, 0);
+    drawView(job, index, pack::CasterShare::still, 0);
     device_.vk.CmdEndRendering(job.commands);
     layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     barrier.old_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;

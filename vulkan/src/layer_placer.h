@@ -4,6 +4,8 @@
 
 #include "layer_passes.h"
 
+#include <gnomon/pack/filter_passes.h>
+
 #include <gnomon/shared/gpu_structs.h>
 
 #include <optional>
@@ -35,27 +37,18 @@ public:
     [[nodiscard]] std::vector<pack::DepthLayer> read(std::uint32_t slot) const;
 
 private:
-    // The map that layers were placed for; nothing is placed yet without a metric.
-    struct Slot {
-        MapId map;
-        std::uint32_t light = kNoIndex; // tells maps without a name apart
-        std::optional<DepthMetric> metric;
-    };
-
     void makeBuffer(std::uint32_t slots);
     [[nodiscard]] shared::GpuDepthLayers* entries() const;
     void write(VkCommandBuffer commands, const View& view, std::uint32_t slot);
-    [[nodiscard]] shared::GpuHistogramPush histogramPush(const View& view) const;
-    [[nodiscard]] shared::GpuPlacePush placePush(const View& view, std::uint32_t slot, bool held) const;
 
     Device& device_;
     ResolvedOptions options_;
-    bool of_world_ = false;             // lvsm with layers of the world
+    pack::LayerSteps steps_;
     std::optional<LayerPasses> passes_; // lvsm with layers that follow what is drawn
     HostBuffer buffer_;
     HostBuffer outgrown_; // holds the placed layers until they have been copied
     bool copied_ = false; // it has been, and is retired by the next prepare(): recording allocates nothing
-    std::vector<Slot> slots_;
+    std::uint32_t slots_ = 0;
 };
 
 } // namespace gnomon::vulkan

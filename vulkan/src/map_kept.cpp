@@ -120,7 +120,7 @@ void DepthMaps::drawKept(const MapJob& job, std::uint32_t index)
     if (view.place.part != TexelPart::whole) {
         restorer_->clear(job.commands, view.place.part);
     }
-    drawView(job, index, CasterShare::still, colourMaskOf(storage_.colour, view.place.part));
+    drawView(job, index, pack::CasterShare::still, colourMaskOf(storage_.colour, view.place.part));
     device_.vk.CmdEndRendering(job.commands);
     device_.endLabel(job.commands);
 }

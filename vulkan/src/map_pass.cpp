@@ -169,7 +169,7 @@ void DepthMaps::prepareTogether(const Plan& plan, std::uint32_t options)
     }
 }
 
-DepthMaps::Target DepthMaps::mapTarget(const View& view, const ViewWork& work) const
+DepthMaps::Target DepthMaps::mapTarget(const View& view, const pack::ViewWork& work) const
 {
     const VkRect2D area = redrawnArea(view, work.whole);
     const VkImageView layer = maps_.image().layer(view.place.tile.layer);
@@ -286,7 +286,7 @@ void DepthMaps::drawMap(const MapJob& job, std::uint32_t index)
     } else if (view.place.part != TexelPart::whole) {
         restorer_->clear(commands, view.place.part);
     }
-    drawView(job, index, view.contents.kept_layer != kNoIndex ? CasterShare::moving : CasterShare::all,
+    drawView(job, index, view.contents.kept_layer != kNoIndex ? pack::CasterShare::moving : pack::CasterShare::all,
              colourMaskOf(storage_.colour, view.place.part));
     device_.vk.CmdEndRendering(commands);
     device_.endLabel(commands);

@@ -62,7 +62,7 @@ private:
     void drawMap(const MapJob& job, std::uint32_t index);
     void drawTogether(const MapJob& job, std::uint32_t first, std::uint32_t count);
     void beginRendering(VkCommandBuffer commands, const Tile& tile, const Target& target);
-    [[nodiscard]] Target mapTarget(const View& view, const ViewWork& work) const;
+    [[nodiscard]] Target mapTarget(const View& view, const pack::ViewWork& work) const;
     [[nodiscard]] bool keepsDepth(const View& view) const;
     [[nodiscard]] MapRestorer::Source sourceFor(const View& view) const;
     [[nodiscard]] Target keptTarget(const View& view) const;

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "device.h"
-#include "map_notes.h"
 
+#include <gnomon/pack/map_notes.h>
 #include <gnomon/plan_views.h>
 
 namespace gnomon::vulkan {
@@ -15,16 +15,16 @@ struct MapJob {
     VkCommandBuffer commands = VK_NULL_HANDLE;
     std::uint32_t slot = 0;
     const Plan& plan;
-    std::uint32_t options = 0;      // index into Plan::options: views of others are left alone
-    std::span<const ViewWork> work; // by view
+    std::uint32_t options = 0;            // index into Plan::options: views of others are left alone
+    std::span<const pack::ViewWork> work; // by view
     const DrawCasters& draw;
     const ClassicPass* classic = nullptr; // MapPass::classic of what these options ask for; null: nothing
     VkBuffer placements = VK_NULL_HANDLE; // GpuFittedView by view of the plan
     Profiler* profiler = nullptr;
 
-    [[nodiscard]] ViewWork of(std::uint32_t view) const
+    [[nodiscard]] pack::ViewWork of(std::uint32_t view) const
     {
-        return optionsIndexOf(plan, plan.views[view]) == options ? work[view] : ViewWork{};
+        return optionsIndexOf(plan, plan.views[view]) == options ? work[view] : pack::ViewWork{};
     }
     /// The profiler where there is a map to draw: a pass that draws none is not listed.
     [[nodiscard]] Profiler* profilerOfWork() const

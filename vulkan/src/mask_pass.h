@@ -55,7 +55,7 @@ public:
     /// plan needs for inputs of the options' shape; without one, for inputs as record() was given last. Only a first
     /// record() whose shape nobody told makes its own.
     bool prepare(const Plan& plan, VkExtent2D screen, const MapClasses& maps);
-    /// Finds what this frame's mask is drawn from: before all below. `map_changes`: MapNotes::changes().
+    /// Finds what this frame's mask is drawn from: before all below. `map_changes`: pack::MapNotes::changes().
     void describe(const Plan& plan, const MaskInputs& inputs, const MapClasses& maps, std::uint64_t map_changes);
     /// Is the mask that was described the one that mask() has?
     [[nodiscard]] bool holds() const { return now_.inputs != 0 && drawn_is_known_ && now_ == drawn_; }

@@ -5,8 +5,6 @@
 #include "pipelines.h"
 #include "specialisation.h"
 
-#include <gnomon/pack/page_table.h>
-
 #include <gnomon_spirv.h>
 
 #include <algorithm>
@@ -28,15 +26,7 @@ MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape)
 {
     MaskPipelineKey key;
     key.module = pack::filterModule(options);
-    key.constants.technique = pack::techniqueConstants(options);
-    key.constants.has_normals = shape.normals ? VK_TRUE : VK_FALSE;
-    key.constants.has_smooth = shape.smooth ? VK_TRUE : VK_FALSE;
-    key.constants.paraboloid = options.technique().partition == Partition::paraboloid ? VK_TRUE : VK_FALSE;
-    key.constants.has_ids = shape.ids ? VK_TRUE : VK_FALSE;
-    const bool layered =
-        options.technique().partition == Partition::multi && options.multi().divide == MultiDivide::receivers;
-    key.constants.layered = layered ? VK_TRUE : VK_FALSE;
-    key.constants.pages = pack::hasPages(options) ? VK_TRUE : VK_FALSE;
+    key.constants = pack::maskConstants(options, {shape.normals, shape.ids, shape.smooth});
     return key;
 }
 
@@ -90,7 +80,7 @@ VkPipeline MaskPipelines::get(MaskPipelineKey key, VkPipelineLayout layout)
 
 Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout)
 {
-    MaskConstants constants = key.constants;
+    pack::MaskConstants constants = key.constants;
     constants.in_software = device_.software() ? VK_TRUE : VK_FALSE;
     constants.shows_rays = shows_rays_ ? VK_TRUE : VK_FALSE;
     constants.slices_alone = key.told_apart == pack::ToldApart::slices ? VK_TRUE : VK_FALSE;

@@ -12,31 +12,6 @@
 
 namespace gnomon::vulkan {
 
-/// The constant_ids of mask.frag, four bytes each, in their order.
-struct MaskConstants {
-    pack::TechniqueConstants technique; // few_views: pack::MaskDraw::few_views
-    VkBool32 has_normals = VK_FALSE;
-    VkBool32 in_software = VK_FALSE; // numbers that all pixels share come from the vertex shader; see mask.frag
-    VkBool32 has_smooth = VK_FALSE;
-    VkBool32 tints = VK_FALSE;       // views of the draw's options have maps of tints
-    VkBool32 shows_rays = VK_FALSE;  // ShadowRendererOptions::shows_rays
-    VkBool32 confidence = VK_FALSE;  // for the pass that joins frames: FilterTraits::weighs_frames
-    VkBool32 coloured = VK_FALSE;    // pack::MaskDraw::coloured
-    std::uint32_t tile_channels = 0; // CompactMaskRule::channels
-    VkBool32 takes_away = VK_FALSE;  // for a compact mask, a draw that shares: it draws the light that is lost
-    VkBool32 paraboloid = VK_FALSE;  // views may be ViewProjection::paraboloid
-    VkBool32 has_ids = VK_FALSE;
-    VkBool32 slices_alone = VK_FALSE;   // by MaskPipelineKey::told_apart
-    VkBool32 paired = VK_FALSE;         // pack::MaskDraw::paired; of modules for one view alone
-    std::uint32_t pixels_per_texel = 1; // DrawnAs::half: 2
-    VkBool32 layered = VK_FALSE;        // views may be ViewServes::layered
-    VkBool32 orthographic = VK_FALSE;   // pack::MaskDraw::orthographic
-    VkBool32 settles = VK_FALSE;        // DrawnAs::settled
-    VkBool32 pages = VK_FALSE;          // a point's view is found by pack::fillPageTable()
-
-    bool operator==(const MaskConstants&) const = default;
-};
-
 /// The part of a mask's draw that is drawn, and its target.
 enum class DrawnAs : std::uint8_t {
     whole,   // all pixels, to the mask
@@ -49,7 +24,7 @@ enum class DrawnAs : std::uint8_t {
 
 struct MaskPipelineKey {
     Filter module = Filter::pcf; // pack::filterModule()
-    MaskConstants constants;
+    pack::MaskConstants constants;
     VkFormat format = VK_FORMAT_UNDEFINED; // the mask's format
     pack::ToldApart told_apart = pack::ToldApart::tests;
     bool shares = false; // pack::MaskDraw::shares: channels of other draws stay as they are

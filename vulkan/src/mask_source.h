@@ -22,7 +22,7 @@ namespace gnomon::vulkan {
 /// the host says.
 struct MaskSource {
     ContentNumber inputs = 0;      // MaskInputs::content. 0: what the pass makes cannot be told from this
-    std::uint64_t map_changes = 0; // MapNotes::changes()
+    std::uint64_t map_changes = 0; // pack::MapNotes::changes()
     std::shared_ptr<const std::vector<ResolvedOptions>> options; // the options that pipelines are made by
     MaskShape shape;
     bool pieces = false; // MaskInputs::object_pieces

@@ -7,7 +7,7 @@
 
 namespace gnomon::vulkan {
 
-MipPass::MipPass(FilterLayout& layout, const FilterConstants& constants)
+MipPass::MipPass(FilterLayout& layout, const pack::FilterConstants& constants)
     : layout_(layout), pipeline_(layout.makeCompute(spirv::mip_comp, constants, "mip levels"))
 {
 }
@@ -29,17 +29,11 @@ void MipPass::record(const FilterStep& step) const
             waitForShaders(layout_.device(), step.commands);
         }
         const std::uint32_t fine = level - 1;
-        shared::FilterPassPlace place = placeOf(step);
-        place.source.x = static_cast<int>(tile.x >> fine);
-        place.source.y = static_cast<int>(tile.y >> fine);
-        place.target.x = static_cast<int>(tile.x >> level);
-        place.target.y = static_cast<int>(tile.y >> level);
-        place.size.x = static_cast<int>(tile.width >> level);
-        place.size.y = static_cast<int>(tile.height >> level);
+        const shared::FilterPassPlace place = pack::placeOfLevel(step, level);
         layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get(), sets_[fine], step.counts_offset,
                      place);
-        layout_.device().vk.CmdDispatch(step.commands, groupsOf(tile.width >> level, 32),
-                                        groupsOf(tile.height >> level, shared::kWalkTexels), step.image_layers);
+        layout_.device().vk.CmdDispatch(step.commands, pack::groupsOf(tile.width >> level, 32),
+                                        pack::groupsOf(tile.height >> level, shared::kWalkTexels), step.image_layers);
     }
 }
 

@@ -8,7 +8,7 @@ namespace gnomon::vulkan {
 
 class MipPass {
 public:
-    MipPass(FilterLayout& layout, const FilterConstants& constants);
+    MipPass(FilterLayout& layout, const pack::FilterConstants& constants);
 
     [[nodiscard]] static std::uint32_t sets(std::uint32_t levels) { return levels - 1; }
     void makeSets(const MomentImages& images);

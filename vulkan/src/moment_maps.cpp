@@ -33,7 +33,7 @@ MomentMaps::MomentMaps(Device& device, const ResolvedOptions& options, const Map
     : device_(checkedDevice(device, options, storage)), options_(options), storage_(storage), placer_(placer),
       slots_(slots), counts_stride_(alignedCounts(device)),
       layers_per_map_(imageLayersPerMap(options.filter(), options.moments())), layout_(device, cache),
-      mips_(layout_, filterConstants(options)), kept_(device)
+      mips_(layout_, pack::filterConstants(options)), kept_(device)
 {
     const MomentOptions& o = options.moments();
     images_.kernel =
@@ -130,7 +130,7 @@ void MomentMaps::growWorking(VkExtent2D tile)
     if (blur_) {
         ImageInfo scratch;
         scratch.format = storage_.colour;
-        images_.strips = stripsOf(tile.width, layers_per_map_, device_.limits().maxImageArrayLayers);
+        images_.strips = pack::stripsOf(tile.width, layers_per_map_, device_.limits().maxImageArrayLayers);
         scratch.extent = {images_.strips.width, tile.height};
         scratch.layers = images_.strips.count * layers_per_map_;
         scratch.usage = kColour | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
@@ -138,8 +138,8 @@ void MomentMaps::growWorking(VkExtent2D tile)
         images_.scratch = Image(device_, scratch);
         clear_scratch_ = true;
     }
-    const VkDeviceSize blocks =
-        VkDeviceSize{groupsOf(tile.width, shared::kBlockTexels)} * groupsOf(tile.height, shared::kBlockTexels);
+    const VkDeviceSize blocks = VkDeviceSize{pack::groupsOf(tile.width, shared::kBlockTexels)} *
+                                pack::groupsOf(tile.height, shared::kBlockTexels);
     images_.blocks =
         DeviceBuffer(device_, 4 * blocks, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                      "shadow filter buffers");
@@ -327,7 +327,7 @@ void MomentMaps::recordDepth(const MapJob& job, std::uint32_t index)
         }
         kept_.restore(commands, view, images_.depth);
         beginDepthRendering(device_, commands, tile, images_.depth.layer(0), VK_ATTACHMENT_LOAD_OP_LOAD);
-        drawView(job, index, CasterShare::moving, 0);
+        drawView(job, index, pack::CasterShare::moving, 0);
     } else {
         barrier.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL; // the last view's contents are not needed
         barrier.source_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
@@ -335,7 +335,7 @@ void MomentMaps::recordDepth(const MapJob& job, std::uint32_t index)
         barrier.target_access = kDepthAccess;
         recordBarrier(device_, commands, barrier);
         beginDepthRendering(device_, commands, tile, images_.depth.layer(0), VK_ATTACHMENT_LOAD_OP_CLEAR);
-        drawView(job, index, CasterShare::all, 0);
+        drawView(job, index, pack::CasterShare::all, 0);
     }
     device_.vk.CmdEndRendering(commands);
     barrier.old_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
@@ -360,9 +360,7 @@ void MomentMaps::recordFilter(const MapJob& job, std::uint32_t index)
     step.image_layers = layers_per_map_;
     step.strips = images_.strips;
     step.depth_slot = placer_.slotOf(plan, index);
-    step.near_over_far = view.projection.parallel
-                             ? 1.0F
-                             : static_cast<float>(view.projection.metric.near_m / view.projection.metric.far_m);
+    step.near_over_far = pack::nearOverFar(view, view.projection.metric);
     step.counts_offset = job.slot * counts_stride_;
 
     placer_.record(commands, plan, index);

@@ -8,7 +8,7 @@ namespace gnomon::vulkan {
 MomentPass::MomentPass(FilterLayout& layout, const ResolvedOptions& options) : layout_(layout)
 {
     const auto code = options.moments().samples == 1 ? spirv::moments_comp : spirv::moments_samples_comp;
-    pipeline_ = layout.makeCompute(code, filterConstants(options), "moments");
+    pipeline_ = layout.makeCompute(code, pack::filterConstants(options), "moments");
 }
 
 void MomentPass::makeSets(const MomentImages& images)
@@ -20,12 +20,10 @@ void MomentPass::makeSets(const MomentImages& images)
 
 void MomentPass::record(const FilterStep& step) const
 {
-    shared::FilterPassPlace place = placeOf(step);
-    place.source.x = 0;
-    place.source.y = 0;
+    const shared::FilterPassPlace place = pack::placeFromDepths(step);
     layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get(), set_, step.counts_offset, place);
-    layout_.device().vk.CmdDispatch(step.commands, groupsOf(step.tile.width, 32),
-                                    groupsOf(step.tile.height, shared::kWalkTexels), step.image_layers);
+    layout_.device().vk.CmdDispatch(step.commands, pack::groupsOf(step.tile.width, 32),
+                                    pack::groupsOf(step.tile.height, shared::kWalkTexels), step.image_layers);
 }
 
 } // namespace gnomon::vulkan

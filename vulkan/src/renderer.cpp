@@ -108,7 +108,7 @@ void ShadowRenderer::reset()
 
 bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
 {
-    checkPlan("prepare for a plan", plan);
+    pack::checkPlan("prepare for a plan", plan);
     checkClassics(plan, impl_->options.classics.get());
     impl_->mend();
     bool changed = false;
@@ -142,7 +142,7 @@ void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, co
     }
     impl_->device.enter(slot, Retirement::Work::maps);
     impl_->whole([&](RendererParts& parts) {
-        const std::span<const ViewWork> work = parts.notes.workFor(plan);
+        const std::span<const pack::ViewWork> work = parts.notes.workFor(plan);
         parts.reuse[slot] = countReuse(plan, work);
         for (const pack::FramePass& pass : parts.passes) {
             if (pass.kind == pack::FramePassKind::maps) {

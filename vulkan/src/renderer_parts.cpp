@@ -25,7 +25,7 @@ void RendererParts::checkUse(const char* tried, VkCommandBuffer commands, std::u
 
 void RendererParts::checkPrepared(const char* tried, const Plan& plan) const
 {
-    checkPlan(tried, plan);
+    pack::checkPlan(tried, plan);
     bool fits = prepared.holds(plan);
     for (const LightPlan& light : plan.lights) {
         const std::uint32_t i = light.options;

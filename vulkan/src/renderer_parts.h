@@ -4,7 +4,6 @@
 
 #include "cascade_fitter.h"
 #include "map_class.h"
-#include "map_notes.h"
 #include "mask_pass.h"
 #include "seen_cells.h"
 #include "usage.h"
@@ -58,7 +57,7 @@ struct RendererParts {
     std::vector<pack::FramePass> passes; // passes of the plan that was prepared last
     std::vector<MapReuse> reuse;         // by slot
     std::vector<std::uint8_t> mask_kept; // by slot
-    MapNotes notes;
+    pack::MapNotes notes;
     PreparedSize prepared;
     bool has_mask = false; // prepare() was given a screen
 

@@ -64,7 +64,7 @@ bool TintMaps::prepare(const Plan& plan, std::uint32_t options, const std::funct
     for (std::size_t i = 0; i < plan.views.size(); ++i) {
         const View& view = plan.views[i];
         if (optionsIndexOf(plan, view) == options &&
-            std::ranges::any_of(castersOf(plan, view, CasterShare::all), is_blended)) {
+            std::ranges::any_of(pack::castersOf(plan, view, pack::CasterShare::all), is_blended)) {
             places_[i] = 1 + (paired ? 2 * view.place.tile.layer + (view.place.part == TexelPart::second ? 1U : 0U)
                                      : view.place.tile.layer);
             in_use_ = true;
@@ -129,7 +129,7 @@ void TintMaps::draw(const MapJob& job, std::uint32_t index)
     beginViewLabel(device_, job.commands, job.plan, index);
     const ClassicPass bent{.formats = {.paraboloid = true}};
     MapPass pass = passOf(job, index, 0);
-    pass.casters = castersOf(job.plan, view, CasterShare::all);
+    pass.casters = pack::castersOf(job.plan, view, pack::CasterShare::all);
     pass.formats = blockerFormats(view.projection.orthographic);
     pass.classic = view.projection.paraboloid ? &bent : nullptr;
     beginRendering(job.commands, view.place.tile, VK_NULL_HANDLE);

@@ -2,6 +2,7 @@
 // Checks of a host's wrong inputs, before anything is recorded or made of them. Each throws Error.
 #pragma once
 
+#include <gnomon/pack/map_notes.h>
 #include <gnomon/plan.h>
 #include <gnomon/vulkan/shadow_renderer.h>
 
@@ -18,7 +19,6 @@ std::uint32_t checkedFrames(std::uint32_t frames_in_flight);
 void checkSlot(const char* tried, std::uint32_t slot, std::uint32_t frames_in_flight);
 void checkCommands(const char* tried, VkCommandBuffer commands);
 /// Its numbers point into its own lists and pages. Linear in lights and views.
-void checkPlan(const char* tried, const Plan& plan);
 /// Are ids of pieces in a map of the plan's (IdOf::face)?
 bool hasPieces(const Plan& plan);
 

@@ -150,7 +150,7 @@ void FinMaps::recordMap(const MapJob& job, std::uint32_t index) const
     FinPass pass{passOf(job, index, VK_COLOR_COMPONENT_R_BIT), set_, quantum_};
     pass.map.formats = finFormats();
     pass.map.classic = nullptr;
-    pass.map.casters = castersOf(job.plan, view, CasterShare::all);
+    pass.map.casters = pack::castersOf(job.plan, view, pack::CasterShare::all);
     draw_(pass);
     device_.vk.CmdEndRendering(job.commands);
     device_.endLabel(job.commands);

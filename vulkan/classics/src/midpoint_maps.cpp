@@ -105,7 +105,7 @@ void MidpointMaps::drawCasters(const MapJob& job, std::uint32_t view)
     behind.first_surface = first_;
     behind.first_quantum = depthRounding(storage_.depth);
     MapPass pass = passOf(job, view, 0);
-    pass.casters = castersOf(job.plan, job.plan.views[view], CasterShare::all);
+    pass.casters = pack::castersOf(job.plan, job.plan.views[view], pack::CasterShare::all);
     for (const Image& surface : surfaces_) {
         beginSurface(commands, surface, tile);
         job.draw(pass);

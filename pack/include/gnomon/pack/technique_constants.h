@@ -43,4 +43,39 @@ struct TechniqueConstants {
 /// fewViewsOf() for a pass that asks for only this one of the plan's lights.
 [[nodiscard]] GNOMON_API std::uint32_t fewViewsOf(const Plan& plan, const LightPlan& light);
 
+/// The constant_ids of shaders/passes/mask.frag, four bytes each, in their order. Those of 0 and 1 are a VkBool32, or
+/// in GLSL a bool.
+struct MaskConstants {
+    TechniqueConstants technique;       // few_views: MaskDraw::few_views
+    std::uint32_t has_normals = 0;      // MaskImages::normals
+    std::uint32_t in_software = 0;      // numbers that all pixels share come from the vertex shader; see mask.frag
+    std::uint32_t has_smooth = 0;       // MaskImages::smooth
+    std::uint32_t tints = 0;            // views of the draw's options have maps of tints
+    std::uint32_t shows_rays = 0;       // ShadowRendererOptions::shows_rays
+    std::uint32_t confidence = 0;       // for the pass that joins frames: FilterTraits::weighs_frames
+    std::uint32_t coloured = 0;         // MaskDraw::coloured
+    std::uint32_t tile_channels = 0;    // CompactMaskRule::channels
+    std::uint32_t takes_away = 0;       // for a compact mask, a draw that shares: it draws the light that is lost
+    std::uint32_t paraboloid = 0;       // views may be ViewProjection::paraboloid
+    std::uint32_t has_ids = 0;          // MaskImages::ids
+    std::uint32_t slices_alone = 0;     // ToldApart::slices
+    std::uint32_t paired = 0;           // MaskDraw::paired; of modules for one view alone
+    std::uint32_t pixels_per_texel = 1; // 2 where one pixel of each 2 x 2 is drawn (MaskSize::half)
+    std::uint32_t layered = 0;          // views may be ViewServes::layered
+    std::uint32_t orthographic = 0;     // MaskDraw::orthographic
+    std::uint32_t settles = 0;          // draws the pixels that blocks settle, and leaves others
+    std::uint32_t pages = 0;            // a point's view is found by fillPageTable()
+
+    bool operator==(const MaskConstants&) const = default;
+};
+
+/// The images that a mask's pass reads besides the camera's depth.
+struct MaskImages {
+    bool normals = false; // of the surface
+    bool ids = false;     // of objects
+    bool smooth = false;  // smooth surfaces
+};
+/// The constants of the mask's draws of lights with these options. What differs from draw to draw is left as it is.
+[[nodiscard]] GNOMON_API MaskConstants maskConstants(const ResolvedOptions& options, const MaskImages& images);
+
 } // namespace gnomon::pack

@@ -7,6 +7,7 @@ vcpkg_cmake_configure(
         -DGNOMON_PROGRAM=OFF
         -DGNOMON_TESTS=OFF
         -DGNOMON_INSTALL=ON
+        -DGNOMON_GL=OFF # whatever is found on the machine
         "-DGNOMON_GLSLC=${CURRENT_HOST_INSTALLED_DIR}/tools/shaderc/glslc${VCPKG_HOST_EXECUTABLE_SUFFIX}"
         "-DGNOMON_SPIRV_VAL=${CURRENT_HOST_INSTALLED_DIR}/tools/spirv-tools/spirv-val${VCPKG_HOST_EXECUTABLE_SUFFIX}"
 )

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "map_notes.h"
+#include <gnomon/pack/map_notes.h>
 
 #include <gnomon/plan_views.h>
 
 #include <algorithm>
 #include <cassert>
 
-namespace gnomon::vulkan {
+namespace gnomon::pack {
 namespace {
 
 bool isSame(const Tile& a, const Tile& b)
@@ -35,6 +35,26 @@ ViewWork asTheViewSays(const View& view)
 }
 
 } // namespace
+
+std::span<const std::uint32_t> castersOf(const Plan& plan, const View& view, CasterShare share)
+{
+    assert(view.casters.first + view.casters.count <= plan.casters.size() && view.casters.still <= view.casters.count);
+    const auto all = std::span(plan.casters).subspan(view.casters.first, view.casters.count);
+    return share == CasterShare::all     ? all
+           : share == CasterShare::still ? all.first(view.casters.still)
+                                         : all.subspan(view.casters.still);
+}
+
+Tile redrawnPart(const View& view, bool all)
+{
+    const Tile& tile = view.place.tile;
+    const TexelRect& dirty = view.contents.dirty;
+    if (all) {
+        return tile;
+    }
+    assert(dirty.x + dirty.width <= tile.width && dirty.y + dirty.height <= tile.height);
+    return {tile.layer, tile.x + dirty.x, tile.y + dirty.y, dirty.width, dirty.height};
+}
 
 MapNotes::Held MapNotes::mapOf(const Plan& plan, const View& view)
 {
@@ -147,4 +167,4 @@ void MapNotes::lose(std::uint32_t options)
     }
 }
 
-} // namespace gnomon::vulkan
+} // namespace gnomon::pack

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "map_storage.h"
+
+#include <gnomon/gl/shadow_renderer.h>
+
+namespace gnomon::gl {
+
+MapStorage mapStorage(MapFormat format)
+{
+    switch (format) {
+    case MapFormat::d16:
+        return {0, GL_DEPTH_COMPONENT16};
+    case MapFormat::d24:
+        return {0, GL_DEPTH_COMPONENT24};
+    case MapFormat::d32f:
+        return {};
+    case MapFormat::r8:
+        return {GL_R8};
+    case MapFormat::r16:
+        return {GL_R16};
+    case MapFormat::r16f:
+        return {GL_R16F};
+    case MapFormat::r32f:
+        return {GL_R32F};
+    case MapFormat::rg8:
+        return {GL_RG8};
+    case MapFormat::rg16:
+        return {GL_RG16};
+    case MapFormat::rg16f:
+        return {GL_RG16F};
+    case MapFormat::rg32f:
+        return {GL_RG32F};
+    case MapFormat::rgba8:
+        return {GL_RGBA8};
+    case MapFormat::rgba16:
+        return {GL_RGBA16};
+    case MapFormat::rgba16f:
+        return {GL_RGBA16F};
+    case MapFormat::rgba32f:
+        return {GL_RGBA32F};
+    default: // one that came later
+        return {};
+    }
+}
+
+unsigned channelsOf(GLenum colour, TexelPart part)
+{
+    constexpr unsigned kAll = 0xF;
+    if (part == TexelPart::whole) {
+        return kAll;
+    }
+    const bool is_first = part == TexelPart::first;
+    if (colour == GL_RG16 || colour == GL_RG16F) {
+        return is_first ? 0x1 : 0x2;
+    }
+    return colour != GL_RGBA8 ? kAll : is_first ? 0x3 : 0xC;
+}
+
+MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic)
+{
+    const MapStorage storage = mapStorage(options.format());
+    if (options.filterable()) { // moments are made of the depths
+        return {0, storage.depth, options.moments().samples, !orthographic};
+    }
+    const bool over_w = options.metric() == DepthMetricKind::z_over_w; // the rasteriser's own
+    return {storage.colour, storage.depth, 1, storage.depthOnly() && !orthographic && !over_w};
+}
+
+} // namespace gnomon::gl
