@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <gnomon/shared/moment_rule.h>
 
 #include <algorithm>
 #include <cassert>
