@@ -34,12 +34,12 @@ void noteFrames(Shot& shot, const Settings& settings)
     const std::vector<Settings> techniques = techniquesOf(settings);
     const auto learns = std::ranges::find_if(techniques, &Settings::learnsFromFrames);
     if (learns != techniques.end()) {
-        shot.notices.push_back(fmt::format("{}, and this is {}",
-                                           learns->shadow.technique.soften == Soften::converge
-                                               ? "soften converge averages frames"
-                                               : "partition virtual has pages by what the frames before showed",
-                                           plans ? "the plan of a first frame"
-                                                 : "one frame; --converge N draws N at rest"));
+        shot.notices.push_back(
+            fmt::format("{}, and this is {}",
+                        learns->shadow.technique.soften == Soften::converge
+                            ? "soften converge averages frames"
+                            : "partition virtual has pages by what the frames before showed",
+                        plans ? "the plan of a first frame" : "one frame; --converge N draws N at rest"));
     }
 }
 

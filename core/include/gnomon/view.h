@@ -211,7 +211,7 @@ struct ViewServes {
     SunPosition sun = SunPosition::only; // which position of a stepping sun
     ViewSlice slice;                     // which depths
     ViewSector sector;                   // which directions
-    ViewPage page;                     // partition virtual: where the sector lies
+    ViewPage page;                       // partition virtual: where the sector lies
     /// How far it has faded in over the light's views before it that serve the same place: 0 .. 1. Less than 1 only
     /// while frustums of partition multi change under motion snap (MultiOptions::fade_frames).
     double faded_in = 1.0;
