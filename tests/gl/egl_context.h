@@ -2,10 +2,13 @@
 // A context of OpenGL 4.5 without a window, on a software rasteriser, whose messages fail the test.
 #pragma once
 
+#include "case_costs.h"
+
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::test {
@@ -34,8 +37,9 @@ private:
 
 } // namespace gnomon::test
 
-/// Skips the case, and says so, where there is no such context.
+/// Skips the case, and says so, where there is no such context. It draws where there is one.
 #define GNOMON_NEEDS_EGL()                                                                                             \
+    gnomon::test::noteDrawing();                                                                                       \
     if (!gnomon::test::EglContext::instance().missing().empty()) {                                                     \
         GTEST_SKIP() << gnomon::test::EglContext::instance().missing();                                                \
     }
