@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 
 namespace gnomon::test {
 namespace {
@@ -126,8 +127,9 @@ void GlScene::draw(const gl::MapPass& pass)
         }
         glUniform4fv(0, 5, &data[0].x);
         const bool ground = object == 0;
-        const auto* const first = static_cast<const std::uint32_t*>(nullptr) + (ground ? 0 : 6);
-        glDrawElementsBaseVertex(GL_TRIANGLES, ground ? 6 : 36, GL_UNSIGNED_INT, first, ground ? 0 : 4);
+        const std::uintptr_t first = (ground ? 0 : 6) * sizeof(std::uint32_t); // bytes into the buffer that is bound
+        glDrawElementsBaseVertex(GL_TRIANGLES, ground ? 6 : 36, GL_UNSIGNED_INT, reinterpret_cast<const void*>(first),
+                                 ground ? 0 : 4);
     }
 }
 
