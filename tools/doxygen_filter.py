@@ -8,8 +8,9 @@ Prints the file, line by line, with
   the comment that opens it as the file's documentation,
   `code; // words` and the lines below that go on with it as documentation of that member,
   in GLSL, where /// is not used, a comment before a function, a constant or a structure as its documentation,
-  one sentence at what says no more anywhere: destructors, deleted copies, comparisons of all members, nameOf().
-Nothing but comments is changed, and no line is added.
+  one sentence at what says no more anywhere: destructors, deleted copies, comparisons of all members, nameOf(),
+  private parts of classes empty: Doxygen links to structs in them, and shows none.
+Nothing else but comments is changed, and no line is added.
 """
 
 import re
@@ -66,6 +67,16 @@ def by_itself(line: str) -> str:
     return line
 
 
+def public(lines: list[str]) -> list[str]:
+    """Without the private parts of classes, which end them."""
+    out = []
+    hidden = False
+    for line in lines:
+        hidden = (hidden or line == "private:") and not line.startswith("};")
+        out.append("" if hidden else line)
+    return out
+
+
 def glsl(lines: list[str]) -> list[str]:
     """Comments directly before a name."""
     out = list(lines)
@@ -81,7 +92,7 @@ def glsl(lines: list[str]) -> list[str]:
 
 def filtered(text: str, is_glsl: bool) -> str:
     lines = opened(text.splitlines())
-    lines = trailing(glsl(lines) if is_glsl else [by_itself(line) for line in lines])
+    lines = trailing(glsl(lines) if is_glsl else [by_itself(line) for line in public(lines)])
     return "\n".join(lines) + "\n"
 
 
