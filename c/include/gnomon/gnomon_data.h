@@ -10,6 +10,8 @@
 /// Stands for no index at all.
 #define GNOMON_NO_INDEX 0xFFFFFFFFU
 
+// NOLINTBEGIN(modernize-use-using): C has no other name for a struct.
+
 /// The outcome of a call.
 typedef enum GnomonStatus {
     GNOMON_OK = 0,            // done
@@ -396,5 +398,7 @@ typedef struct GnomonPrecision {
     float depth_rounding;          // half a step of that depth buffer, 0 to 0.01
     float normal_error_rad;        // bound on the error of receivers' normals, 0 to 0.2
 } GnomonPrecision;
+
+// NOLINTEND(modernize-use-using)
 
 #endif
