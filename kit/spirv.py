@@ -116,7 +116,7 @@ class Module:
     def _first(self, *ops: int) -> int:
         return next(i for i, one in enumerate(self.code) if one.op in ops)
 
-    # What dialects need.
+    # Changes that dialects need.
 
     def push_to_uniform(self, name: str, descriptor_set: int, binding: int) -> bool:
         """Makes the push constants a uniform buffer whose block has this name. False: there are none."""
@@ -214,7 +214,7 @@ class Module:
         return {loads[one.words[2]] for one in self.code if one.op in SAMPLES}
 
     def sample_outputs(self) -> None:
-        """Makes outputs values at each sample, but for those that are flat."""
+        """Makes outputs values at each sample, except those that are flat."""
         flat = {one.words[0] for one in self.all(DECORATE) if one.words[1] == FLAT}
         for variable in self.variables(OUTPUT):
             if self.decoration(variable.words[1], LOCATION) is not None and variable.words[1] not in flat:

@@ -54,7 +54,7 @@ private:
     Buffer pages_;  // pack::fillPageTable()
     Buffer points_; // of the disc, two to a vector
     std::size_t stride_;
-    // Of the frame that is being drawn.
+    // This frame's.
     std::vector<pack::MaskDraw> draws_;
     std::vector<pack::SoftenDraw> soften_draws_;
     std::vector<pack::MapImage> map_images_;

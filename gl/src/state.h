@@ -8,7 +8,7 @@
 
 namespace gnomon::gl {
 
-/// Switches that drawing needs off, but for GL_MULTISAMPLE.
+/// Switches that drawing needs off, except GL_MULTISAMPLE.
 inline constexpr std::array<GLenum, 21> kSwitches{
     GL_DEPTH_TEST,      GL_CULL_FACE,          GL_STENCIL_TEST,    GL_DEPTH_CLAMP,     GL_POLYGON_OFFSET_FILL,
     GL_COLOR_LOGIC_OP,  GL_RASTERIZER_DISCARD, GL_SAMPLE_MASK,     GL_SAMPLE_COVERAGE, GL_SAMPLE_ALPHA_TO_COVERAGE,
@@ -18,7 +18,7 @@ inline constexpr std::array<GLenum, 21> kSwitches{
 
 class KeptState {
 public:
-    /// Notes it, and sets what all passes here want: every switch off but for GL_MULTISAMPLE, scissor on, no blending,
+    /// Notes it, and sets what all passes here want: every switch off except GL_MULTISAMPLE, scissor on, no blending,
     /// all written, clip space with y = -1 in row 0 and z of [0, w].
     explicit KeptState(const Context& context);
     ~KeptState();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a renderer by OpenGL keeps from frame to frame: maps that hold what the plan presumes, maps of still casters,
+// A renderer by OpenGL keeps from frame to frame: maps that hold what the plan presumes, maps of still casters,
 // and the host's state.
 #include "option_steps.h"
 #include "sides.h"

@@ -25,7 +25,7 @@ struct Layout {
     std::vector<VkPushConstantRange> pushes;
 };
 
-/// What the library has made. Its functions call those below and note what they were given.
+/// The layouts that the library has made. Its functions call those below and note what they were given.
 struct Listener {
     vulkan::DeviceView below;
     ModuleNames names;

@@ -3,18 +3,16 @@
 // out (door 3 of docs/integrating.md). docs/c.md has an example. The members of structs are those of the C++ headers
 // that are named beside them, which say more.
 //
-// - A function returns a status, or null where it fails; gnomonLastError() then says why, and what to do. A call that
-// is
-//   refused changes nothing. No exception crosses this border.
+// - A function returns a status, or null where it fails; gnomonLastError() then says why, and what to do.
+//   A call that is refused changes nothing. No exception crosses this border.
 // - Memory that a function returns is the library's. It holds until the same planner's next gnomonPlan() or
 //   gnomonFreePlanner(), where nothing else is said. Memory that a host passes is not kept.
 // - A struct that a host fills in begins with its size. gnomonInit...() sets that, and the defaults. Later versions add
 //   members at the end of structs, and a program that was compiled with this header goes on to work.
 // - It cannot be found out, and is undefined: a pointer to memory that is gone, too small or something else, an array
 //   with fewer elements than its count, a text without an end, two threads in calls on one planner or object set.
-// - Metres, radians, a right-handed world. Matrices are in columns: element [4 * column + row]. Clip space is Vulkan's:
-// y
-//   down, z in [0, w]. A uint32_t that asks a question is 0 or 1; other numbers stand for 1.
+// - Metres, radians, a right-handed world. Matrices are in columns: element [4 * column + row]. Clip space is
+//   Vulkan's: y down, z in [0, w]. A uint32_t that asks a question is 0 or 1; other numbers stand for 1.
 #ifndef GNOMON_GNOMON_H
 #define GNOMON_GNOMON_H
 

@@ -51,6 +51,7 @@ double nearestOver(const PageCaster& caster, const glm::dvec2& low, const glm::d
 
 void PageTree::divide(const Input& input)
 {
+    stays_ = stays(input.rested);
     addRoots(input);
     const auto later = [this](const Wish& a, const Wish& b) {
         return comesLater(a, b);
@@ -150,7 +151,7 @@ void PageTree::addQuarter(const Input& input, std::uint32_t parent, const PageKe
     }
     const bool is_known = std::ranges::binary_search(input.known, key);
     nodes_[index].served = sideOf(key) / input.inner_texels;
-    wishes_.push_back({is_known ? gain * stays(input.rested) : gain, index});
+    wishes_.push_back({is_known ? gain * stays_ : gain, index});
     std::ranges::push_heap(wishes_, [this](const Wish& a, const Wish& b) { return comesLater(a, b); });
 }
 

@@ -132,6 +132,7 @@ private:
     std::vector<FoundPage> pages_;
     std::vector<PageKey> taken_;
     std::uint32_t page_count_ = 0;
+    double stays_ = 1.0; // how many times more a page gains that is there
 };
 
 } // namespace gnomon

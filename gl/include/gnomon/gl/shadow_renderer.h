@@ -130,7 +130,7 @@ public:
     /// Draws the mask: every layer, every channel, 1 = fully lit; its values are those of vulkan::ShadowRenderer. Throws
     /// Error for such a plan too, and where the depth is 0, or the size of an input another one than prepare()'s.
     void drawMask(const Plan& plan, const MaskInputs& inputs);
-    /// What maps hold is lost: the next drawMaps() draws all of them again.
+    /// The contents of maps are lost: the next drawMaps() draws all of them again.
     void reset();
 
     /// R8 for one light, else RGBA8, one layer per four lights and one for each coloured light
@@ -138,7 +138,7 @@ public:
     [[nodiscard]] TextureRef mask() const;
     /// The maps of one of the plan's options; empty where no light of the plan names them.
     [[nodiscard]] TextureRef maps(std::uint32_t options = 0) const;
-    /// What the last drawMaps() drew and kept.
+    /// The maps that the last drawMaps() drew and kept.
     [[nodiscard]] MapReuse reuse() const;
 
 private:

@@ -65,7 +65,7 @@ struct FilterStep {
 /// From mip level `level` - 1 to `level`, 1 to coarsestLevel().
 [[nodiscard]] GNOMON_API shared::FilterPassPlace placeOfLevel(const FilterStep& step, std::uint32_t level);
 
-/// What places the layers of lvsm maps from frame to frame: push constants of the passes that find them in the drawn
+/// Places the layers of lvsm maps from frame to frame: push constants of the passes that find them in the drawn
 /// depths, and a note of the metric that each slot's layers were placed in. Not thread-safe.
 class GNOMON_API LayerSteps {
 public:
