@@ -162,11 +162,6 @@ GLenum Image::target() const
     return info_.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
 }
 
-bool Image::covers(glm::uvec2 size, std::uint32_t layers) const
-{
-    return *this && info_.size.x >= size.x && info_.size.y >= size.y && info_.layers >= layers;
-}
-
 Texture Image::viewOfLevel(const Context& context, std::uint32_t level) const
 {
     GLuint view = 0;
@@ -188,26 +183,16 @@ void copyTexels(const Context& context, const Image& from, const Tile& area, con
                                 static_cast<GLsizei>(area.width), static_cast<GLsizei>(area.height), 1);
 }
 
-bool growImage(const Context& context, Image& image, ImageInfo info)
+void copyLevels(const Context& context, const Image& from, const Image& to)
 {
-    if (image.covers(info.size, info.layers) && image.info().levels >= info.levels) {
-        return false;
+    const ImageInfo& info = from.info();
+    for (std::uint32_t level = 0; level < std::min(info.levels, to.info().levels); ++level) {
+        context.gl.CopyImageSubData(from.name(), from.target(), static_cast<GLint>(level), 0, 0, 0, to.name(),
+                                    to.target(), static_cast<GLint>(level), 0, 0, 0,
+                                    static_cast<GLsizei>(std::max(info.size.x >> level, 1U)),
+                                    static_cast<GLsizei>(std::max(info.size.y >> level, 1U)),
+                                    static_cast<GLsizei>(std::max(info.layers, 1U)));
     }
-    const ImageInfo& have = image.info();
-    if (image) {
-        info.size = glm::uvec2(std::max(info.size.x, have.size.x), std::max(info.size.y, have.size.y));
-        info.layers = std::max(info.layers, have.layers);
-    }
-    Image larger(context, info);
-    for (std::uint32_t level = 0; image && level < std::min(have.levels, info.levels); ++level) {
-        context.gl.CopyImageSubData(image.name(), image.target(), static_cast<GLint>(level), 0, 0, 0, larger.name(),
-                                    larger.target(), static_cast<GLint>(level), 0, 0, 0,
-                                    static_cast<GLsizei>(std::max(have.size.x >> level, 1U)),
-                                    static_cast<GLsizei>(std::max(have.size.y >> level, 1U)),
-                                    static_cast<GLsizei>(std::max(have.layers, 1U)));
-    }
-    image = std::move(larger);
-    return true;
 }
 
 void waitForShaders(const Context& context)

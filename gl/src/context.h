@@ -90,7 +90,6 @@ public:
     [[nodiscard]] const ImageInfo& info() const { return info_; }
     [[nodiscard]] GLenum target() const;
     [[nodiscard]] explicit operator bool() const { return static_cast<bool>(texture_); }
-    [[nodiscard]] bool covers(glm::uvec2 size, std::uint32_t layers) const;
     /// All of one level, as level 0 of a texture.
     [[nodiscard]] Texture viewOfLevel(const Context& context, std::uint32_t level) const;
     [[nodiscard]] TextureRef ref() const;
@@ -103,9 +102,8 @@ private:
 [[nodiscard]] bool isDepth(GLenum format);
 /// A rectangle of a layer to another layer, `to` with its own offset.
 void copyTexels(const Context& context, const Image& from, const Tile& area, const Image& to, const Tile& at);
-/// Makes an image larger where it does not cover these, and copies what it held, as far as there are levels for it.
-/// `info`: of a new one. True when it was made anew.
-bool growImage(const Context& context, Image& image, ImageInfo info);
+/// All texels of an image to one of the same format that is no smaller, as far as both have levels.
+void copyLevels(const Context& context, const Image& from, const Image& to);
 
 /// Uploads to a buffer, which gets this size.
 template <class T> void upload(const Context& context, const Buffer& buffer, std::span<const T> data)

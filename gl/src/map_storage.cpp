@@ -43,19 +43,6 @@ MapStorage mapStorage(MapFormat format)
     }
 }
 
-unsigned channelsOf(GLenum colour, TexelPart part)
-{
-    constexpr unsigned kAll = 0xF;
-    if (part == TexelPart::whole) {
-        return kAll;
-    }
-    const bool is_first = part == TexelPart::first;
-    if (colour == GL_RG16 || colour == GL_RG16F) {
-        return is_first ? 0x1 : 0x2;
-    }
-    return colour != GL_RGBA8 ? kAll : is_first ? 0x3 : 0xC;
-}
-
 MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic)
 {
     const MapStorage storage = mapStorage(options.format());

@@ -5,7 +5,6 @@
 #include "functions.h"
 
 #include <gnomon/options.h>
-#include <gnomon/view.h>
 
 namespace gnomon::gl {
 
@@ -17,7 +16,5 @@ struct MapStorage {
     [[nodiscard]] GLenum mapFormat() const { return depthOnly() ? depth : colour; }
 };
 [[nodiscard]] MapStorage mapStorage(MapFormat format);
-/// The colour channels of a texel that hold this part of it: bit i for channel i.
-[[nodiscard]] unsigned channelsOf(GLenum colour, TexelPart part);
 
 } // namespace gnomon::gl

@@ -34,7 +34,7 @@ std::string valueLike(std::string_view text, std::uint32_t word)
 }
 
 /// The text with these values in place of its constants' defaults.
-std::string withConstants(std::string_view text, const std::vector<std::uint32_t>& words)
+std::string withConstants(std::string_view text, std::span<const std::uint32_t> words)
 {
     constexpr std::string_view kDefine = "#define SPIRV_CROSS_CONSTANT_ID_";
     std::string out;
@@ -64,7 +64,7 @@ std::string withConstants(std::string_view text, const std::vector<std::uint32_t
 
 class Shader {
 public:
-    Shader(const Context& context, GLenum stage, const glsl::Text& text, const std::vector<std::uint32_t>& words)
+    Shader(const Context& context, GLenum stage, const glsl::Text& text, std::span<const std::uint32_t> words)
         : gl_(context.gl), name_(gl_.CreateShader(stage))
     {
         const std::string source = withConstants(text.text, words);
@@ -101,25 +101,26 @@ const glsl::Text& textOf(std::string_view name)
 
 } // namespace
 
-bool Programs::has(std::string_view module)
+GLuint Programs::draw(std::string_view vertex, std::string_view fragment, std::span<const std::uint32_t> words)
 {
-    return find(module) != nullptr;
+    return get(vertex, fragment, words);
 }
 
-GLuint Programs::draw(std::string_view vertex, std::string_view fragment, std::vector<std::uint32_t> words)
+GLuint Programs::compute(std::string_view module, std::span<const std::uint32_t> words)
 {
-    return get(vertex, fragment, std::move(words));
+    return get(module, {}, words);
 }
 
-GLuint Programs::compute(std::string_view module, std::vector<std::uint32_t> words)
+void Programs::push(std::span<const std::uint32_t> words) const
 {
-    return get(module, {}, std::move(words));
+    upload(context_, push_, words);
+    context_.gl.BindBufferBase(GL_UNIFORM_BUFFER, kPushBinding, push_.name());
 }
 
-GLuint Programs::get(std::string_view first, std::string_view second, std::vector<std::uint32_t>&& words)
+GLuint Programs::get(std::string_view first, std::string_view second, std::span<const std::uint32_t> words)
 {
     for (const Made& made : made_) {
-        if (made.first == first && made.second == second && made.words == words) {
+        if (made.first == first && made.second == second && std::ranges::equal(made.words, words)) {
             return made.program.name();
         }
     }
@@ -147,7 +148,7 @@ GLuint Programs::get(std::string_view first, std::string_view second, std::vecto
         gl.GetProgramInfoLog(name, sizeof log, nullptr, log);
         refuseProgram(second.empty() ? first : second, log);
     }
-    made.words = std::move(words);
+    made.words.assign(words.begin(), words.end());
     return made_.emplace_back(std::move(made)).program.name();
 }
 

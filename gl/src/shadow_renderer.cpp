@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "depth_maps.h"
-#include "mask_pass.h"
-#include "moment_maps.h"
-#include "supported.h"
+#include "executor.h"
+#include "map_storage.h"
+#include "state.h"
 
 #include <gnomon/error.h>
+#include <gnomon/pack/frame_commands.h>
 #include <gnomon/pack/frame_passes.h>
-#include <gnomon/plan_views.h>
 
-#include <algorithm>
+#include <string>
 
 namespace gnomon::gl {
 namespace {
-
-/// Can maps with the one options go on with the other? Only what they are made by counts.
-bool areAlike(const ResolvedOptions& a, const ResolvedOptions& b)
-{
-    return a.filter() == b.filter() && a.format() == b.format() && (!a.filterable() || a.moments() == b.moments());
-}
 
 glm::uvec2 sizeOf(const Context& context, GLuint texture)
 {
@@ -27,75 +20,111 @@ glm::uvec2 sizeOf(const Context& context, GLuint texture)
     return {size[0], size[1]};
 }
 
+GLenum formatOf(const Context& context, GLuint texture)
+{
+    GLint format = 0;
+    context.gl.GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
+    return static_cast<GLenum>(format);
+}
+
+/// Half a step of a depth buffer.
+float depthRoundingOf(GLenum format, bool reversed_z)
+{
+    switch (format) {
+    case GL_DEPTH_COMPONENT16:
+        return 0x1p-17F;
+    case GL_DEPTH_COMPONENT24:
+    case GL_DEPTH24_STENCIL8:
+        return 0x1p-25F;
+    default:
+        return reversed_z ? 0.0F : 0x1p-25F;
+    }
+}
+
+/// By how much a number of [-1, 1] is off at most that a texture of this format holds.
+float roundingOf(GLenum format)
+{
+    switch (format) {
+    case GL_RG32F:
+        return 0.0F;
+    case GL_RG16_SNORM:
+        return 0x1p-16F;
+    case GL_RG16F:
+        return 0x1p-11F;
+    default:
+        return 0x1p-8F;
+    }
+}
+
+pack::RecorderInputs inputsOf(const Context& context, const MaskInputs& inputs, const Camera& camera)
+{
+    pack::RecorderInputs made;
+    made.normals = inputs.normal != 0;
+    made.smooth = inputs.smooth != 0;
+    made.ids = inputs.object_id != 0;
+    pack::DrawPrecision& precision = made.precision;
+    precision.depth_rounding = depthRoundingOf(formatOf(context, inputs.depth), camera.reversed_z);
+    precision.sub_pixel_bits = context.sub_pixel_bits;
+    precision.normal_error_rad = made.normals ? pack::normalError(roundingOf(formatOf(context, inputs.normal)))
+                                              : pack::normalErrorFromDepth(precision.sub_pixel_bits);
+    return made;
+}
+
+/// Throws Error where a filterable map's format cannot be filtered.
+void requireFiltering(const Context& context, const Plan& plan)
+{
+    for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
+        const ResolvedOptions& options = (*plan.options)[i];
+        if (!options.filterable() || !pack::hasLights(plan, i)) {
+            continue;
+        }
+        GLint filters = 0;
+        context.gl.GetInternalformativ(GL_TEXTURE_2D_ARRAY, mapStorage(options.format()).colour, GL_FILTER, 1, &filters);
+        if (filters == GL_FALSE) {
+            throw Error("make shadow maps by OpenGL",
+                        "the context cannot filter maps of format " + std::string(nameOf(options.format())),
+                        "choose another map format");
+        }
+    }
+}
+
+pack::RecorderTraits traitsOf(const Context& context)
+{
+    return {context.most_layers, context.uniform_alignment, context.in_software, context.has_one_view};
+}
+
 } // namespace
 
 struct ShadowRenderer::Impl {
-    explicit Impl(const ShadowRendererOptions& options) : context(options), programs(context), mask(context, programs)
+    explicit Impl(const ShadowRendererOptions& options)
+        : context(options), executor(context), recorder(traitsOf(context))
     {
     }
 
-    /// Forgets what maps hold.
-    void lose()
+    /// Carries out what was recorded; where that fails, maps are drawn again.
+    void run(const Host& host)
     {
-        for (std::uint32_t i = 0; i < classes.size(); ++i) {
-            notes.lose(i);
-        }
+        half_done = true;
+        const KeptState state(context);
+        executor.run(list, host);
+        half_done = false;
     }
-    void matchClasses(const Plan& plan);
-    void check(const char* tried, const Plan& plan) const;
+    /// The last call threw: nobody knows what maps hold.
+    void recover()
+    {
+        if (half_done) {
+            recorder.lose();
+        }
+        list.clear();
+    }
 
     Context context;
-    Programs programs;
-    MaskPass mask;
-    MapClasses classes;                     // by options
-    std::vector<ResolvedOptions> class_for; // the options that they were made for, by options
-    pack::MapNotes notes;
-    std::vector<pack::FramePass> passes;
-    std::uint64_t planner = 0;
-    bool has_mask = false;
-    bool half_done = false; // a call threw
-    MapReuse reuse;
+    Executor executor;
+    pack::FrameRecorder recorder;
+    pack::CommandList list;
+    glm::uvec2 size_px{0}; // of the mask
+    bool half_done = false;
 };
-
-/// Options that are others than those of the last plan lose their maps, unless these are made in the same way.
-void ShadowRenderer::Impl::matchClasses(const Plan& plan)
-{
-    for (std::uint32_t i = 0; i < classes.size(); ++i) {
-        const bool goes_on = i < plan.options->size() && areAlike(class_for[i], (*plan.options)[i]);
-        if (classes[i] && !goes_on) {
-            classes[i].reset();
-            notes.lose(i);
-        }
-    }
-    classes.resize(std::max(classes.size(), plan.options->size()));
-    class_for.resize(classes.size(), plan.options->front());
-    std::copy(plan.options->begin(), plan.options->end(), class_for.begin());
-    for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
-        const ResolvedOptions& options = (*plan.options)[i];
-        if (!classes[i] && pack::hasLights(plan, i)) {
-            if (options.filterable()) {
-                classes[i] = std::make_unique<MomentMaps>(context, programs, options);
-            } else {
-                classes[i] = std::make_unique<DepthMaps>(context, programs, options);
-            }
-        }
-    }
-}
-
-void ShadowRenderer::Impl::check(const char* tried, const Plan& plan) const
-{
-    pack::checkPlan(tried, plan);
-    checkSupported(tried, plan);
-    for (const View& view : plan.views) {
-        const std::uint32_t options = optionsIndexOf(plan, view);
-        const bool there = options < classes.size() && classes[options] &&
-                           areAlike(class_for[options], (*plan.options)[options]) &&
-                           classes[options]->covers(plan, view);
-        if (!there) {
-            throw Error(tried, "the plan needs other textures than the last prepare() made", "call prepare() for it");
-        }
-    }
-}
 
 ShadowRenderer::ShadowRenderer(const ShadowRendererOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 
@@ -103,70 +132,39 @@ ShadowRenderer::~ShadowRenderer() = default;
 
 bool ShadowRenderer::prepare(const Plan& plan, glm::uvec2 size_px)
 {
-    constexpr const char* kTried = "prepare for a plan";
-    pack::checkPlan(kTried, plan);
-    checkSupported(kTried, plan);
     Impl& impl = *impl_;
-    if (impl.half_done || impl.planner != plan.planner) { // another planner may give out the same names
-        impl.lose();
-    }
-    impl.planner = plan.planner;
-    impl.half_done = true;
-    impl.matchClasses(plan);
-    impl.notes.reserve(plan);
+    impl.recover();
     bool changed = false;
-    for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
-        if (impl.classes[i]) {
-            const MapRecorder::Prepared prepared = impl.classes[i]->prepare(plan, i);
-            changed = changed || prepared.changed;
-            if (prepared.lost) {
-                impl.notes.lose(i);
-            }
-        }
+    try {
+        changed = impl.recorder.prepare(plan, size_px, impl.list);
+        requireFiltering(impl.context, plan);
+        impl.run({plan});
+    } catch (...) { // images that were recorded may not be there
+        impl.executor.forget();
+        impl.recorder.loseImages();
+        throw;
     }
-    impl.has_mask = size_px.x > 0 && size_px.y > 0;
-    const bool mask_changed = impl.has_mask && impl.mask.prepare(plan, size_px);
-    impl.half_done = false;
-    return changed || mask_changed;
+    impl.size_px = size_px;
+    return changed;
 }
 
 void ShadowRenderer::drawMaps(const Plan& plan, const DrawCasters& draw)
 {
-    constexpr const char* kTried = "draw shadow maps";
     Impl& impl = *impl_;
-    impl.check(kTried, plan);
+    impl.recover();
     if (!draw) {
-        throw Error(kTried, "the callback is empty", "hand in one that draws casters");
+        throw Error("draw shadow maps", "the callback is empty", "hand in one that draws casters");
     }
-    if (impl.half_done) {
-        impl.lose();
-    }
-    const KeptState state(impl.context);
-    const std::span<const pack::ViewWork> work = impl.notes.workFor(plan);
-    impl.half_done = true;
-    for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
-        if (impl.classes[i]) {
-            impl.classes[i]->draw({plan, i, work, draw});
-        }
-    }
-    impl.notes.done(plan);
-    impl.half_done = false;
-    impl.reuse = {};
-    for (std::size_t i = 0; i < work.size(); ++i) {
-        const bool keeps = plan.views[i].contents.kept_layer != kNoIndex;
-        impl.reuse.held += work[i].draw ? 0 : 1;
-        impl.reuse.drawn += work[i].draw && !keeps ? 1 : 0;
-        impl.reuse.restored += work[i].draw && keeps ? 1 : 0;
-        impl.reuse.kept_drawn += work[i].draw_kept ? 1 : 0;
-    }
+    impl.recorder.drawMaps(plan, impl.list);
+    impl.run({plan, nullptr, &draw});
 }
 
 void ShadowRenderer::drawMask(const Plan& plan, const MaskInputs& inputs)
 {
     constexpr const char* kTried = "draw the mask";
     Impl& impl = *impl_;
-    impl.check(kTried, plan);
-    if (!impl.has_mask || !impl.mask.holds(plan) || impl.mask.mask().info().size != inputs.size_px) {
+    impl.recover();
+    if (inputs.size_px != impl.size_px) {
         throw Error(kTried, "the last prepare() made no mask of this size for this plan", "call prepare() for it");
     }
     if (inputs.depth == 0) {
@@ -177,32 +175,30 @@ void ShadowRenderer::drawMask(const Plan& plan, const MaskInputs& inputs)
             throw Error(kTried, "an input is no texture of MaskInputs::size_px", "hand in textures of the mask's size");
         }
     }
-    if (plan.made_for.lights.size() != plan.lights.size()) {
-        throw Error(kTried, "the frame that the plan was made for has other lights", "hand in the planner's own plan");
-    }
-    const KeptState state(impl.context);
-    impl.mask.draw(plan, inputs, impl.classes);
+    impl.recorder.drawMask(plan, inputsOf(impl.context, inputs, plan.made_for.camera), impl.list);
+    impl.run({plan, &inputs});
 }
 
 void ShadowRenderer::reset()
 {
-    impl_->lose();
+    impl_->recorder.lose();
 }
 
 TextureRef ShadowRenderer::mask() const
 {
-    return impl_->has_mask ? impl_->mask.mask().ref() : TextureRef{};
+    const bool has_mask = impl_->size_px.x > 0 && impl_->size_px.y > 0;
+    return has_mask ? impl_->executor.image({pack::ImageName::mask}) : TextureRef{};
 }
 
 TextureRef ShadowRenderer::maps(std::uint32_t options) const
 {
-    const MapClasses& classes = impl_->classes;
-    return options < classes.size() && classes[options] ? classes[options]->maps().ref() : TextureRef{};
+    return impl_->executor.image({pack::ImageName::maps, options});
 }
 
 MapReuse ShadowRenderer::reuse() const
 {
-    return impl_->reuse;
+    const pack::RecordedMaps recorded = impl_->recorder.recorded();
+    return {recorded.drawn, recorded.kept_drawn, recorded.restored, recorded.held};
 }
 
 } // namespace gnomon::gl

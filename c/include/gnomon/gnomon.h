@@ -16,6 +16,7 @@
 #ifndef GNOMON_GNOMON_H
 #define GNOMON_GNOMON_H
 
+#include <gnomon/gnomon_commands.h>
 #include <gnomon/gnomon_data.h>
 
 #include <stddef.h>
@@ -137,6 +138,31 @@ GNOMON_C_API GnomonStatus gnomonBufferBytes(GnomonPlanner* planner, uint32_t buf
 /// stands for the defaults. `bytes`: how many `out` has; what is more is left as it is.
 GNOMON_C_API GnomonStatus gnomonFillBuffer(GnomonPlanner* planner, uint32_t buffer, uint32_t options,
                                            const GnomonPrecision* precision, void* out, size_t bytes) GNOMON_NOEXCEPT;
+
+// ---- The commands of a frame (docs/c.md#commands)
+
+/// A recorder for an executor with these limits of its device; null where it fails. `most_layers`: of an array of
+/// images, 1 ... `uniform_alignment`: of offsets in uniform buffers, bytes, a multiple of 16. `in_software`: a software
+/// rasteriser draws. Pass GNOMON_INTERFACE.
+GNOMON_C_API GnomonRecorder* gnomonMakeRecorder(uint32_t header_interface, uint32_t most_layers,
+                                                uint32_t uniform_alignment, uint32_t in_software) GNOMON_NOEXCEPT;
+/// Null does nothing.
+GNOMON_C_API void gnomonFreeRecorder(GnomonRecorder* recorder) GNOMON_NOEXCEPT;
+/// Images and buffers for the planner's last plan, and a mask of this size, pixels; 0: no mask. Null where it fails,
+/// with the sentence that says what is not recorded. The list holds until the recorder's next call, as do those below;
+/// it runs before what the next call records.
+GNOMON_C_API const GnomonCommandList* gnomonRecordImages(GnomonRecorder* recorder, const GnomonPlanner* planner,
+                                                         uint32_t width_px, uint32_t height_px) GNOMON_NOEXCEPT;
+/// The maps that are out of date.
+GNOMON_C_API const GnomonCommandList* gnomonRecordMaps(GnomonRecorder* recorder,
+                                                       const GnomonPlanner* planner) GNOMON_NOEXCEPT;
+/// The mask. `images`: bits of GnomonHas. `precision` may be null, which stands for the defaults.
+GNOMON_C_API const GnomonCommandList* gnomonRecordMask(GnomonRecorder* recorder, const GnomonPlanner* planner,
+                                                       uint32_t images,
+                                                       const GnomonPrecision* precision) GNOMON_NOEXCEPT;
+/// The contents of maps are lost: all are drawn again. `images_too`: the images and buffers are gone as well, and
+/// gnomonRecordImages() makes them anew.
+GNOMON_C_API GnomonStatus gnomonLoseRecorded(GnomonRecorder* recorder, uint32_t images_too) GNOMON_NOEXCEPT;
 
 #if defined(__cplusplus)
 }

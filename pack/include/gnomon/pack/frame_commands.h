@@ -17,7 +17,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -106,11 +105,12 @@ struct MakeBuffer {
     std::uint64_t bytes = 0;  // its size; a multiple of 16
     std::uint64_t copies = 0; // bytes that the old one hands on, from its beginning
 };
-/// Writes to a buffer.
+/// Writes to a buffer. No list writes the same bytes twice, or after they were read.
 struct WriteBuffer {
-    BufferRef buffer;                // the buffer
-    std::uint64_t offset = 0;        // bytes
-    std::span<const std::byte> data; // a multiple of 4 bytes
+    BufferRef buffer;         // the buffer
+    std::uint64_t offset = 0; // bytes
+    CommandRange data;        // CommandList::words
+    bool alone = false;       // the buffer's other bytes are read no more
 };
 /// Sets a buffer to zeros.
 struct ZeroBuffer {
@@ -133,7 +133,6 @@ struct CommandTarget {
     Tile viewport;                  // texels; its layer is not used
     Tile scissor;                   // the part that may change
     std::uint32_t channels = 0xF;   // bit i: channel i of colour is written
-    bool operator==(const CommandTarget&) const = default;
 };
 /// Sets colours, the channels that are written, to 1 and depths to 1, inside of the scissor.
 struct ClearTarget {
@@ -171,10 +170,10 @@ struct DrawTriangle {
 };
 /// Runs a compute module.
 struct RunCompute {
-    std::string_view module;              // "moments.comp"
-    CommandRange constants;               // as DrawTriangle
-    CommandRange push;                    // as DrawTriangle
-    CommandRange bindings;                // as DrawTriangle
+    std::string_view module;               // "moments.comp"
+    CommandRange constants;                // as DrawTriangle
+    CommandRange push;                     // as DrawTriangle
+    CommandRange bindings;                 // as DrawTriangle
     std::array<std::uint32_t, 3> groups{}; // along x, y, z
 };
 
@@ -185,7 +184,7 @@ using Command = std::variant<DropOptions, MakeImage, MakeBuffer, WriteBuffer, Ze
 struct CommandList {
     std::vector<Command> commands;        // run one after the other
     std::vector<CommandBinding> bindings; // of draws and dispatches
-    std::vector<std::uint32_t> words;     // constants and push constants
+    std::vector<std::uint32_t> words;     // constants, push constants, data of buffers
 
     /// Keeps its memory.
     void clear();
@@ -214,13 +213,13 @@ struct RecordedMaps {
 };
 
 /// Records the commands of plan after plan, for one executor. It knows what images there are and what they hold. Not
-/// thread-safe. Each call appends to `out`, whose lists of bytes hold until the next call, and each list runs before the
-/// next call.
+/// thread-safe. Each call appends to `out`; what it appends runs before what the next call appends. Names of modules
+/// hold as long as the recorder.
 ///
 /// Throws Error from prepare() for what it does not record, with a sentence: partition sdsm and paraboloid, classic
 /// filters (id, depth-id, smoothies, volumes), soften smoothies and converge, motion step-alternate, caster-faces
-/// midpoint, cascades.pass=layered, mask-size=half and blur-path=fragment; and for a plan whose numbers point beyond its
-/// own lists.
+/// midpoint, cascades.pass=layered, mask-size=half and blur-path=fragment; and for a plan whose numbers point beyond
+/// its own lists.
 class GNOMON_API FrameRecorder {
 public:
     /// For an executor with these limits.
@@ -234,7 +233,8 @@ public:
     bool prepare(const Plan& plan, glm::uvec2 size_px, CommandList& out);
     /// The maps that are out of date. Throws Error for a plan that needs other images than the last prepare() made.
     void drawMaps(const Plan& plan, CommandList& out);
-    /// The mask: every layer, every channel, 1 = fully lit. Throws Error as drawMaps(), and where prepare() made no mask.
+    /// The mask: every layer, every channel, 1 = fully lit. Throws Error as drawMaps(), and where prepare() made no
+    /// mask.
     void drawMask(const Plan& plan, const RecorderInputs& inputs, CommandList& out);
     /// The contents of maps are lost, because an executor failed or its device lost them: all are drawn again.
     void lose();

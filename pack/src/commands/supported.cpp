@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "supported.h"
+#include "commands/supported.h"
 
 #include <gnomon/error.h>
 #include <gnomon/pack/frame_passes.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <string>
 
-namespace gnomon::gl {
+namespace gnomon::pack {
 namespace {
 
 struct Refusal {
@@ -64,7 +64,7 @@ Refusal refusalOf(const ResolvedOptions& options)
 void checkSupported(const char* tried, const Plan& plan)
 {
     for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
-        const Refusal refusal = pack::hasLights(plan, i) ? refusalOf((*plan.options)[i]) : Refusal{};
+        const Refusal refusal = hasLights(plan, i) ? refusalOf((*plan.options)[i]) : Refusal{};
         if (!refusal.found.empty()) {
             throw Error(tried, refusal.found, refusal.todo);
         }
@@ -77,4 +77,4 @@ void checkSupported(const char* tried, const Plan& plan)
     }
 }
 
-} // namespace gnomon::gl
+} // namespace gnomon::pack

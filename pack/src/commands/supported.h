@@ -3,9 +3,9 @@
 
 #include <gnomon/plan.h>
 
-namespace gnomon::gl {
+namespace gnomon::pack {
 
 /// Throws Error where a light's options ask for what this backend does not do.
 void checkSupported(const char* tried, const Plan& plan);
 
-} // namespace gnomon::gl
+} // namespace gnomon::pack
