@@ -24,7 +24,8 @@ struct GnomonRecorder {
 
 namespace {
 
-template <class Name> void setName(std::uint32_t (&out)[2], Name name, std::uint32_t options)
+template <class Name>
+void setName(std::uint32_t (&out)[2], Name name, std::uint32_t options)
 {
     out[0] = static_cast<std::uint32_t>(name);
     out[1] = options;
@@ -113,8 +114,7 @@ public:
     void operator()(const pack::DrawMapCasters& command)
     {
         setTarget(*out_, command.target);
-        const std::span<const std::uint32_t> casters =
-            pack::castersOf(plan_, plan_.views[command.view], command.share);
+        const std::span<const std::uint32_t> casters = pack::castersOf(plan_, plan_.views[command.view], command.share);
         out_->view = command.view;
         out_->share = static_cast<std::uint32_t>(command.share);
         out_->casters = casters.data();
@@ -141,7 +141,8 @@ public:
     }
 
 private:
-    template <class Run> void setRun(const Run& run, std::string_view module)
+    template <class Run>
+    void setRun(const Run& run, std::string_view module)
     {
         out_->module = own_.texts(module);
         setRange(out_->constants, run.constants);
@@ -169,7 +170,25 @@ GnomonBinding flatBinding(const pack::CommandBinding& binding)
     return out;
 }
 
-/// Records by `record(recorder, plan, list)`, and flattens the list.
+void flatten(GnomonRecorder& own, const Plan& plan)
+{
+    Flattener flattener(own, plan);
+    for (const pack::Command& command : own.list.commands) {
+        flattener.add(command);
+    }
+    for (const pack::CommandBinding& binding : own.list.bindings) {
+        own.bindings.push_back(flatBinding(binding));
+    }
+    GnomonCommandList& flat = own.flat;
+    flat.commands = own.commands.data();
+    flat.bindings = own.bindings.data();
+    flat.words = own.list.words.data();
+    flat.command_count = static_cast<std::uint32_t>(own.commands.size());
+    flat.binding_count = static_cast<std::uint32_t>(own.bindings.size());
+    flat.word_count = static_cast<std::uint32_t>(own.list.words.size());
+}
+
+/// Records by `record(recorder, plan)`, and flattens the list.
 template <class Record>
 const GnomonCommandList* recorded(const char* tried, GnomonRecorder* recorder, const GnomonPlanner* planner,
                                   const Record& record) noexcept
@@ -182,21 +201,13 @@ const GnomonCommandList* recorded(const char* tried, GnomonRecorder* recorder, c
         own.bindings.clear();
         own.flat = {};
         record(own, plan);
-        Flattener flattener(own, plan);
-        for (const pack::Command& command : own.list.commands) {
-            flattener.add(command);
+        try {
+            flatten(own, plan);
+        } catch (...) { // nobody will run what was recorded
+            own.recorder.loseImages();
+            throw;
         }
-        for (const pack::CommandBinding& binding : own.list.bindings) {
-            own.bindings.push_back(flatBinding(binding));
-        }
-        GnomonCommandList& flat = own.flat;
-        flat.commands = own.commands.data();
-        flat.bindings = own.bindings.data();
-        flat.words = own.list.words.data();
-        flat.command_count = static_cast<std::uint32_t>(own.commands.size());
-        flat.binding_count = static_cast<std::uint32_t>(own.bindings.size());
-        flat.word_count = static_cast<std::uint32_t>(own.list.words.size());
-        return &flat;
+        return &own.flat;
     });
 }
 

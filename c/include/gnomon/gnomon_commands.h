@@ -44,14 +44,14 @@ typedef enum GnomonBufferName {
 
 /// The kind of a command; the members of GnomonCommand that it has are named beside it.
 typedef enum GnomonCommandKind {
-    GNOMON_DROP_OPTIONS = 0, // images and buffers of `options` are used no more
-    GNOMON_MAKE_IMAGE = 1,   // image, format, size_px, layers, levels, samples, keeps
-    GNOMON_MAKE_BUFFER = 2,  // buffer, bytes, copies
-    GNOMON_WRITE_BUFFER = 3, // buffer, offset, data, alone
-    GNOMON_ZERO_BUFFER = 4,  // buffer
-    GNOMON_COPY_TEXELS = 5,  // image, area, to, place
-    GNOMON_CLEAR_TARGET = 6, // the target: colours, the channels that are written, and depths become 1
-    GNOMON_DRAW_CASTERS = 7, // the target, view, casters, caster_count, share
+    GNOMON_DROP_OPTIONS = 0,  // images and buffers of `options` are used no more
+    GNOMON_MAKE_IMAGE = 1,    // image, format, size_px, layers, levels, samples, keeps
+    GNOMON_MAKE_BUFFER = 2,   // buffer, bytes, copies
+    GNOMON_WRITE_BUFFER = 3,  // buffer, offset, data, alone
+    GNOMON_ZERO_BUFFER = 4,   // buffer
+    GNOMON_COPY_TEXELS = 5,   // image, area, to, place
+    GNOMON_CLEAR_TARGET = 6,  // the target: colours, the channels that are written, and depths become 1
+    GNOMON_DRAW_CASTERS = 7,  // the target, view, casters, caster_count, share
     GNOMON_DRAW_TRIANGLE = 8, // the target, vertex, module, constants, push, bindings, least
     GNOMON_RUN_COMPUTE = 9,   // module, constants, push, bindings, groups
 } GnomonCommandKind;

@@ -31,7 +31,21 @@ struct FrameRecorder::Impl {
             notes.lose(i);
         }
     }
+    void loseImages();
+    /// Calls `record`; where that throws, a list is half recorded, and images and buffers are made anew.
+    template <class Record>
+    void guarded(const Record& record)
+    {
+        try {
+            record();
+        } catch (...) {
+            loseImages();
+            throw;
+        }
+    }
     void matchClasses(const Plan& plan);
+    bool prepare(const Plan& plan, glm::uvec2 size_px);
+    void drawMaps(const Plan& plan);
     void check(const char* tried, const Plan& plan) const;
 
     RecorderTraits traits;
@@ -81,6 +95,58 @@ void FrameRecorder::Impl::check(const char* tried, const Plan& plan) const
     }
 }
 
+bool FrameRecorder::Impl::prepare(const Plan& plan, glm::uvec2 size_px)
+{
+    if (planner != plan.planner) { // another planner may give out the same names
+        lose();
+    }
+    planner = plan.planner;
+    matchClasses(plan);
+    notes.reserve(plan);
+    bool changed = false;
+    for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
+        if (classes[i]) {
+            const MapCommands::Prepared prepared = classes[i]->prepare(plan);
+            changed = changed || prepared.changed;
+            if (prepared.lost) {
+                notes.lose(i);
+            }
+        }
+    }
+    has_mask = size_px.x > 0 && size_px.y > 0;
+    const bool mask_changed = has_mask && mask.prepare(plan, size_px);
+    return changed || mask_changed;
+}
+
+void FrameRecorder::Impl::drawMaps(const Plan& plan)
+{
+    const std::span<const ViewWork> work = notes.workFor(plan);
+    for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
+        if (classes[i]) {
+            classes[i]->draw({plan, i, work});
+        }
+    }
+    recorded = {};
+    for (std::size_t i = 0; i < work.size(); ++i) {
+        const bool keeps = plan.views[i].contents.kept_layer != kNoIndex;
+        recorded.held += work[i].draw ? 0 : 1;
+        recorded.drawn += work[i].draw && !keeps ? 1 : 0;
+        recorded.restored += work[i].draw && keeps ? 1 : 0;
+        recorded.kept_drawn += work[i].draw_kept ? 1 : 0;
+    }
+    notes.done(plan);
+}
+
+void FrameRecorder::Impl::loseImages()
+{
+    lose();
+    classes.clear();
+    class_for.clear();
+    recording.forget();
+    mask.forget();
+    has_mask = false;
+}
+
 FrameRecorder::FrameRecorder(const RecorderTraits& traits) : impl_(std::make_unique<Impl>(traits)) {}
 
 FrameRecorder::~FrameRecorder() = default;
@@ -90,49 +156,17 @@ bool FrameRecorder::prepare(const Plan& plan, glm::uvec2 size_px, CommandList& o
     constexpr const char* kTried = "prepare for a plan";
     checkPlan(kTried, plan);
     checkSupported(kTried, plan);
-    Impl& impl = *impl_;
-    impl.recording.to(out);
-    if (impl.planner != plan.planner) { // another planner may give out the same names
-        impl.lose();
-    }
-    impl.planner = plan.planner;
-    impl.matchClasses(plan);
-    impl.notes.reserve(plan);
+    impl_->recording.to(out);
     bool changed = false;
-    for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
-        if (impl.classes[i]) {
-            const MapCommands::Prepared prepared = impl.classes[i]->prepare(plan);
-            changed = changed || prepared.changed;
-            if (prepared.lost) {
-                impl.notes.lose(i);
-            }
-        }
-    }
-    impl.has_mask = size_px.x > 0 && size_px.y > 0;
-    const bool mask_changed = impl.has_mask && impl.mask.prepare(plan, size_px);
-    return changed || mask_changed;
+    impl_->guarded([&] { changed = impl_->prepare(plan, size_px); });
+    return changed;
 }
 
 void FrameRecorder::drawMaps(const Plan& plan, CommandList& out)
 {
-    Impl& impl = *impl_;
-    impl.check("draw shadow maps", plan);
-    impl.recording.to(out);
-    const std::span<const ViewWork> work = impl.notes.workFor(plan);
-    for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
-        if (impl.classes[i]) {
-            impl.classes[i]->draw({plan, i, work});
-        }
-    }
-    impl.recorded = {};
-    for (std::size_t i = 0; i < work.size(); ++i) {
-        const bool keeps = plan.views[i].contents.kept_layer != kNoIndex;
-        impl.recorded.held += work[i].draw ? 0 : 1;
-        impl.recorded.drawn += work[i].draw && !keeps ? 1 : 0;
-        impl.recorded.restored += work[i].draw && keeps ? 1 : 0;
-        impl.recorded.kept_drawn += work[i].draw_kept ? 1 : 0;
-    }
-    impl.notes.done(plan);
+    impl_->check("draw shadow maps", plan);
+    impl_->recording.to(out);
+    impl_->guarded([&] { impl_->drawMaps(plan); });
 }
 
 void FrameRecorder::drawMask(const Plan& plan, const RecorderInputs& inputs, CommandList& out)
@@ -147,7 +181,7 @@ void FrameRecorder::drawMask(const Plan& plan, const RecorderInputs& inputs, Com
         throw Error(kTried, "the frame that the plan was made for has other lights", "hand in the planner's own plan");
     }
     impl.recording.to(out);
-    impl.mask.draw(plan, inputs);
+    impl.guarded([&] { impl.mask.draw(plan, inputs); });
 }
 
 void FrameRecorder::lose()
@@ -157,13 +191,7 @@ void FrameRecorder::lose()
 
 void FrameRecorder::loseImages()
 {
-    Impl& impl = *impl_;
-    impl.lose();
-    impl.classes.clear();
-    impl.class_for.clear();
-    impl.recording.forget();
-    impl.mask.forget();
-    impl.has_mask = false;
+    impl_->loseImages();
 }
 
 ImageShape FrameRecorder::shapeOf(const ImageRef& image) const

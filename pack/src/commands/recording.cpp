@@ -5,13 +5,6 @@
 
 namespace gnomon::pack {
 
-void CommandList::clear()
-{
-    commands.clear();
-    bindings.clear();
-    words.clear();
-}
-
 Recording::Made& Recording::madeFor(std::uint32_t options)
 {
     if (options >= made_.size()) {

@@ -187,7 +187,12 @@ struct CommandList {
     std::vector<std::uint32_t> words;     // constants, push constants, data of buffers
 
     /// Keeps its memory.
-    void clear();
+    void clear()
+    {
+        commands.clear();
+        bindings.clear();
+        words.clear();
+    }
 };
 
 /// Limits of an executor's device.
