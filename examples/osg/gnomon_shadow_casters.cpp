@@ -120,6 +120,7 @@ public:
                 caster.masks.push_back(node->getNodeMask());
             }
         }
+        caster.receives = flags.receives;
         flags.groups = casts ? gnomon::kCommonGroup : 0;
         const gnomon::Aabb own{{box.xMin(), box.yMin(), box.zMin()}, {box.xMax(), box.yMax(), box.zMax()}};
         const gnomon::Aabb bounds = gnomon::transform(glm::mat4(caster.world_from_object), own);

@@ -30,6 +30,7 @@ struct Caster {
     glm::vec2 cut{1.0F};                     // the factor of alpha, and where it is cut
     GLenum culls = GL_NONE;                  // faces that the camera does not see
     std::vector<unsigned> masks;             // of the nodes on its path, all ones left out
+    bool receives = true;                    // else it is lit
 
     /// CullVisitor with this traversal mask sees it.
     [[nodiscard]] bool isSeenWith(unsigned traversal_mask) const;

@@ -40,6 +40,10 @@ in vec2 uv;
 #ifdef COLOUR
 layout(location = 0) out vec4 texel;
 #endif
+#ifdef IDS
+layout(location = 6) uniform uint receives;
+layout(location = 0) out uint id;
+#endif
 void main()
 {
 #ifdef MASKED
@@ -51,11 +55,14 @@ void main()
 #ifdef COLOUR
     texel = vec4(clamp(metric, 0.0, 1.0));
 #endif
+#ifdef IDS
+    id = receives;
+#endif
 })";
 osg::ref_ptr<osg::Program> makeCasterProgram(unsigned variant)
 {
     std::string head = "#version 430 compatibility\n";
-    constexpr std::array<const char*, 4> kNames{"MASKED", "METRIC", "SAMPLES", "COLOUR"};
+    constexpr std::array<const char*, 5> kNames{"MASKED", "METRIC", "SAMPLES", "COLOUR", "IDS"};
     for (unsigned i = 0; i < kNames.size(); ++i) {
         head += (variant >> i & 1U) != 0 ? std::string("#define ") + kNames[i] + "\n" : "";
     }
@@ -78,6 +85,20 @@ osg::StateSet& passState()
         return set;
     }();
     return *kState;
+}
+
+/// Asks by OSG, since old contexts know none of the numbers.
+void requireContext(const osg::GLExtensions& gl)
+{
+    GLint profile = 0;
+    if (gl.glVersion >= 4.5F) {
+        glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
+    }
+    if (gl.glVersion < 4.5F || (profile & GL_CONTEXT_CORE_PROFILE_BIT) != 0) {
+        throw gnomon::Error("make shadow maps by OpenGL",
+                            "the context is " + std::string(reinterpret_cast<const char*>(glGetString(GL_VERSION))),
+                            "make a context of OpenGL 4.5 or newer with the compatibility profile");
+    }
 }
 
 void unbindSamplers(const osg::GLExtensions& gl)
@@ -183,30 +204,47 @@ void Shared::setNotice(const std::string& text)
 
 // ---- A view's own depth
 
-void Drawn::setSize(const osg::GLExtensions& gl, glm::uvec2 size)
+namespace {
+
+GLuint makePicture(const osg::GLExtensions& gl, GLenum format, glm::uvec2 size)
 {
-    if (size == size_px) {
+    GLint bound = 0;
+    GLuint name = 0;
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+    glGenTextures(1, &name);
+    glBindTexture(GL_TEXTURE_2D, name);
+    gl.glTexStorage2D(GL_TEXTURE_2D, 1, format, GLsizei(size.x), GLsizei(size.y));
+    glBindTexture(GL_TEXTURE_2D, GLuint(bound));
+    return name;
+}
+
+} // namespace
+
+void Drawn::setSize(const osg::GLExtensions& gl, glm::uvec2 size, bool with_ids)
+{
+    if (size == size_px && with_ids == (ids != 0)) {
         return;
     }
     deletePicture(gl);
     size_px = size;
-    GLint bound = 0;
-    glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
-    glGenTextures(1, &depth);
-    glBindTexture(GL_TEXTURE_2D, depth);
-    gl.glTexStorage2D(GL_TEXTURE_2D, 1, GL_DEPTH_COMPONENT32F, GLsizei(size.x), GLsizei(size.y));
-    glBindTexture(GL_TEXTURE_2D, GLuint(bound));
+    depth = makePicture(gl, GL_DEPTH_COMPONENT32F, size);
     gl.glGenFramebuffers(1, &framebuffer);
     gl.glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl.glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
-    glDrawBuffer(GL_NONE);
+    if (with_ids) {
+        ids = makePicture(gl, GL_R32UI, size);
+        gl.glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, ids, 0);
+    }
+    glDrawBuffer(with_ids ? GL_COLOR_ATTACHMENT0 : GL_NONE);
     glReadBuffer(GL_NONE);
 }
 
 void Drawn::deletePicture(const osg::GLExtensions& gl)
 {
+    const std::array<GLuint, 2> textures{depth, ids};
     gl.glDeleteFramebuffers(1, &framebuffer);
-    glDeleteTextures(1, &depth);
+    glDeleteTextures(GLsizei(textures.size()), textures.data());
+    depth = ids = 0;
     size_px = {};
 }
 
@@ -263,6 +301,7 @@ std::shared_ptr<Drawn> MaskStage::findDrawn(unsigned context, const osg::GLExten
     }
     if (drawn->renderer == nullptr) {
         try {
+            requireContext(gl);
             drawn->renderer = std::make_unique<gnomon::gl::ShadowRenderer>(
                 gnomon::gl::ShadowRendererOptions{osg::getGLExtensionFuncPtr, {}});
         } catch (...) {
@@ -280,13 +319,14 @@ void MaskStage::drawAll(osg::RenderInfo& info, const osg::GLExtensions& gl, Draw
     gnomon::gl::ShadowRenderer& renderer = *drawn.renderer;
     renderer.prepare(plan, size);
     renderer.drawMaps(plan, [&](const gnomon::gl::MapPass& pass) { drawMap(info, gl, pass); });
-    drawn.setSize(gl, size);
+    const bool with_ids = !std::ranges::all_of(*casters, [](const Caster& caster) { return caster.receives; });
+    drawn.setSize(gl, size, with_ids);
     gl.glBindFramebuffer(GL_FRAMEBUFFER, drawn.framebuffer);
     glViewport(0, 0, GLsizei(size.x), GLsizei(size.y));
     glClearDepth(0.0);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    drawPicture(info, gl);
-    renderer.drawMask(plan, {.size_px = size, .depth = drawn.depth});
+    glClear(GL_DEPTH_BUFFER_BIT); // ids may be anything where nothing is
+    drawPicture(info, gl, with_ids ? kIds : 0);
+    renderer.drawMask(plan, {.size_px = size, .depth = drawn.depth, .object_id = drawn.ids});
     mask->name = renderer.mask().texture;
 }
 
@@ -311,18 +351,25 @@ void MaskStage::drawMap(osg::RenderInfo& info, const osg::GLExtensions& gl, cons
     info.getState()->unbindVertexArrayObject();
 }
 
-void MaskStage::drawPicture(osg::RenderInfo& info, const osg::GLExtensions& gl)
+void MaskStage::drawPicture(osg::RenderInfo& info, const osg::GLExtensions& gl, unsigned variant)
 {
     beginCasters(info, gl);
-    for (const std::uint32_t object : plan.receivers) {
-        const Caster& caster = (*casters)[object];
-        if (!caster.isSeenWith(traversal_mask)) {
-            continue;
+    const auto draw = [&](const Caster& caster) {
+        if (!caster.drawable.valid() || !caster.isSeenWith(traversal_mask)) {
+            return;
         }
         (caster.culls != GL_NONE ? glEnable : glDisable)(GL_CULL_FACE);
         glCullFace(caster.culls != GL_NONE ? caster.culls : GL_BACK);
         const glm::mat4 rows(glm::transpose(plan.made_for.camera.clip_from_world * caster.world_from_object));
-        drawCaster(info, gl, caster, {rows[0], rows[1], rows[2], rows[3], {}}, 0);
+        drawCaster(info, gl, caster, {rows[0], rows[1], rows[2], rows[3], {}}, variant);
+    };
+    for (const std::uint32_t object : plan.receivers) {
+        draw((*casters)[object]);
+    }
+    for (const Caster& caster : *casters) { // these hide receivers, and are lit
+        if (!caster.receives) {
+            draw(caster);
+        }
     }
     glDisable(GL_CULL_FACE);
     info.getState()->unbindVertexArrayObject();
@@ -354,6 +401,9 @@ void MaskStage::drawCaster(osg::RenderInfo& info, const osg::GLExtensions& gl, c
         state.setActiveTextureUnit(0);
         caster.cutout->apply(state);
         gl.glUniform2f(5, caster.cut.x, caster.cut.y);
+    }
+    if ((variant & kIds) != 0) {
+        gl.glUniform1ui(6, caster.receives ? 1 : 0);
     }
     gl.glUniform4fv(0, 5, &rows[0].x);
     caster.drawable->draw(info);

@@ -25,7 +25,7 @@ namespace gnomon_osg {
 
 constexpr unsigned kMostLights = 8; // as many as gl_LightSource has
 /// Variants of the casters' program, added.
-constexpr unsigned kMasked = 1, kMetric = 2, kSamples = 4, kColour = 8, kVariants = 16;
+constexpr unsigned kMasked = 1, kMetric = 2, kSamples = 4, kColour = 8, kIds = 16, kVariants = 32;
 
 
 osg::ref_ptr<osg::Program> makeProgram(const std::string& vertex, const std::string& fragment);
@@ -35,13 +35,14 @@ struct Drawn {
     std::unique_ptr<gnomon::gl::ShadowRenderer> renderer;
     GLuint framebuffer = 0;
     GLuint depth = 0;
+    GLuint ids = 0; // 0 where nothing receives; made when something does not
     glm::uvec2 size_px{0};
 
     Drawn() = default;
     ~Drawn() { (void)renderer.release(); } // release() was not called: its context is gone, with all that was in it
     Drawn(const Drawn&) = delete;
     Drawn& operator=(const Drawn&) = delete;
-    void setSize(const osg::GLExtensions& gl, glm::uvec2 size);
+    void setSize(const osg::GLExtensions& gl, glm::uvec2 size, bool with_ids);
     void release(const osg::GLExtensions& gl);
 
 private:
@@ -110,7 +111,7 @@ private:
     std::shared_ptr<Drawn> findDrawn(unsigned context, const osg::GLExtensions& gl);
     void drawAll(osg::RenderInfo& info, const osg::GLExtensions& gl, Drawn& drawn);
     void drawMap(osg::RenderInfo& info, const osg::GLExtensions& gl, const gnomon::gl::MapPass& pass);
-    void drawPicture(osg::RenderInfo& info, const osg::GLExtensions& gl);
+    void drawPicture(osg::RenderInfo& info, const osg::GLExtensions& gl, unsigned variant);
     void beginCasters(osg::RenderInfo& info, const osg::GLExtensions& gl);
     void drawCaster(osg::RenderInfo& info, const osg::GLExtensions& gl, const Caster& caster,
                     const std::array<glm::vec4, 5>& rows, unsigned variant);

@@ -92,8 +92,9 @@ osg::ref_ptr<osg::Node> makeSheet()
 gnomon::ShadowOptions parseTechnique(std::string_view text)
 {
     gnomon::ShadowOptions options;
+    const std::string whole(text);
     const auto fail = [&](std::string_view word, const std::string& todo) {
-        throw gnomon::Error("read the technique '" + std::string(text) + "'", "'" + std::string(word) + "' is unknown", todo);
+        throw gnomon::Error("read the technique '" + whole + "'", "'" + std::string(word) + "' is unknown", todo);
     };
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('+'), text.size());
@@ -232,7 +233,7 @@ struct Offscreen::Finish : osg::Camera::DrawCallback {
         if (wanted) {
             const osg::Viewport& area = *info.getCurrentCamera()->getViewport();
             image = new osg::Image;
-            image->readPixels(0, 0, int(area.width()), int(area.height()), GL_RGB, GL_UNSIGNED_BYTE);
+            image->readPixels(int(area.x()), int(area.y()), int(area.width()), int(area.height()), GL_RGB, GL_UNSIGNED_BYTE);
         }
     }
     bool wanted = false;
@@ -248,8 +249,8 @@ Offscreen::Offscreen(osg::Node* scene, const Look& look) : finish_(new Finish)
     traits->setUndefinedScreenDetailsToDefaultScreen();
     traits->width = look.width;
     traits->height = look.height;
-    traits->alpha = 8;
     traits->depth = 24;
+    traits->stencil = 8;
     traits->pbuffer = true;
     traits->doubleBuffer = false;
     traits->vsync = false;
@@ -298,7 +299,7 @@ int Offscreen::errors() const
     return finish_->errors;
 }
 
-void Offscreen::resize(int width, int height)
+void Offscreen::resize(int x, int y, int width, int height)
 {
     osg::Camera& camera = *viewer_.getCamera();
     double fov_deg = 0.0;
@@ -307,5 +308,5 @@ void Offscreen::resize(int width, int height)
     double far_m = 0.0;
     camera.getProjectionMatrixAsPerspective(fov_deg, ratio, near_m, far_m);
     camera.setProjectionMatrixAsPerspective(fov_deg, double(width) / height, near_m, far_m);
-    camera.setViewport(0, 0, width, height);
+    camera.setViewport(x, y, width, height);
 }

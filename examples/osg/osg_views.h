@@ -62,8 +62,8 @@ public:
     [[nodiscard]] const std::string& renderer() const;
     /// Errors of OpenGL after frames so far.
     [[nodiscard]] int errors() const;
-    /// Another size, as when a window is resized. Not larger than the first.
-    void resize(int width, int height);
+    /// Another part of the first size, from its lower left corner, as when a window is resized or divided.
+    void resize(int x, int y, int width, int height);
 
 private:
     struct Finish;
