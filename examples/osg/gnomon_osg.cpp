@@ -103,8 +103,10 @@ Options parse(osg::ArgumentParser& arguments)
     while (arguments.read("--software")) {
         options.settings.rates = gnomon::ratesOf(gnomon::RateSource::software);
     }
-    for (auto [name, value] : {std::pair{"--screenshot", &options.screenshot}, {"--mask", &options.mask},
-                               {"--truth", &options.truth}, {"--counted", &options.counted}}) {
+    for (auto [name, value] : {std::pair{"--screenshot", &options.screenshot},
+                               {"--mask", &options.mask},
+                               {"--truth", &options.truth},
+                               {"--counted", &options.counted}}) {
         while (arguments.read(name, *value)) {
         }
     }
@@ -206,7 +208,8 @@ osg::ref_ptr<osg::Image> readImage(const std::string& file, const Look& look)
 void printErrors(const Options& options, osg::Node& model)
 {
     const osg::ref_ptr<osg::Image> truth = readImage(options.truth, options.look);
-    const osg::ref_ptr<osg::Image> counted = options.counted.empty() ? nullptr : readImage(options.counted, options.look);
+    const osg::ref_ptr<osg::Image> counted =
+        options.counted.empty() ? nullptr : readImage(options.counted, options.look);
     for (const Shown& shown : makeAll(options, model, true)) {
         const osg::ref_ptr<osg::Image> mask = maskOf(options, shown);
         double squares = 0.0;
@@ -215,7 +218,8 @@ void printErrors(const Options& options, osg::Node& model)
         for (int y = 0; y < mask->t(); ++y) {
             for (int x = 0; x < mask->s(); ++x) {
                 if (!counted || counted->getColor(unsigned(x), unsigned(y)).r() > 0.5F) {
-                    const double error = mask->getColor(unsigned(x), unsigned(y)).r() - truth->getColor(unsigned(x), unsigned(y)).r();
+                    const double error =
+                        mask->getColor(unsigned(x), unsigned(y)).r() - truth->getColor(unsigned(x), unsigned(y)).r();
                     squares += error * error;
                     sum += error;
                     ++count;
@@ -253,7 +257,9 @@ void printTimes(const Options& options, osg::Node& model)
                 options.rounds * (kFrames - 1));
     for (std::size_t i = 0; i < all.size(); ++i) {
         std::ranges::sort(times[i]);
-        const auto at = [&](double share) { return times[i][std::size_t(share * double(times[i].size() - 1))]; };
+        const auto at = [&](double share) {
+            return times[i][std::size_t(share * double(times[i].size() - 1))];
+        };
         std::printf("%-28s %7.2f (%.2f to %.2f)\n", all[i].name.c_str(), at(0.5), at(0.25), at(0.75));
     }
 }
@@ -290,7 +296,8 @@ int run(const Options& options)
     if (options.rounds > 0) {
         printTimes(options, *model);
     }
-    const bool all_done = !options.mask.empty() || !options.screenshot.empty() || !options.truth.empty() || options.rounds > 0;
+    const bool all_done =
+        !options.mask.empty() || !options.screenshot.empty() || !options.truth.empty() || options.rounds > 0;
     return all_done ? 0 : openWindow(options, makeAll(options, *model, false).front());
 }
 

@@ -52,7 +52,9 @@ bool findLook(const osg::NodePath& path, Caster& caster)
             culls = (culls & Attribute::INHERIT) == 0 ? culls : set->getMode(GL_CULL_FACE);
         }
     }
-    const auto on = [](unsigned mode) { return (mode & Attribute::INHERIT) == 0 && (mode & Attribute::ON) != 0; };
+    const auto on = [](unsigned mode) {
+        return (mode & Attribute::INHERIT) == 0 && (mode & Attribute::ON) != 0;
+    };
     if (on(culls)) {
         caster.culls = faces != nullptr ? GLenum(static_cast<const osg::CullFace*>(faces)->getMode()) : GL_BACK;
     }
@@ -140,7 +142,8 @@ void CasterScene::collect(osg::Group& scene, const osgShadow::ShadowSettings& ma
     Collector collector(*this, masks, osg::computeLocalToWorld(path));
     collector.pushOntoNodePath(&scene);
     scene.osg::Group::traverse(collector);
-    std::erase_if(known_, [&](const auto& one) { return one.second.visit != visit_ && objects_.remove(one.second.id); });
+    std::erase_if(known_,
+                  [&](const auto& one) { return one.second.visit != visit_ && objects_.remove(one.second.id); });
 }
 
 void CasterScene::note(const osg::NodePath& path, Caster caster, const gnomon::Aabb& bounds,

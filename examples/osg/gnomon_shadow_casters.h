@@ -40,8 +40,8 @@ using Casters = std::vector<Caster>; // by the index of the object
 /// All drawables below a scene, from frame to frame.
 class CasterScene {
 public:
-    /// Visits the scene and takes over what was added, moved, deformed, removed or set otherwise. `masks`: who casts and
-    /// who receives. `path`: from the root to the scene, as CullVisitor has it.
+    /// Visits the scene and takes over what was added, moved, deformed, removed or set otherwise. `masks`: who casts
+    /// and who receives. `path`: from the root to the scene, as CullVisitor has it.
     void collect(osg::Group& scene, const osgShadow::ShadowSettings& masks, const osg::NodePath& path);
     [[nodiscard]] const gnomon::ObjectSet& objects() const { return objects_; }
     /// Of the last collect(); a frame that is drawn later keeps them.

@@ -75,11 +75,13 @@ osg::StateSet& passState()
     static const osg::ref_ptr<osg::StateSet> kState = [] {
         osg::ref_ptr<osg::StateSet> set = new osg::StateSet;
         constexpr auto kAlways = osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED;
-        set->setAttributeAndModes(new osg::Depth(osg::Depth::GREATER, 0.0, 1.0, true), osg::StateAttribute::ON | kAlways);
+        set->setAttributeAndModes(new osg::Depth(osg::Depth::GREATER, 0.0, 1.0, true),
+                                  osg::StateAttribute::ON | kAlways);
         set->setAttribute(new osg::ClipControl(osg::ClipControl::LOWER_LEFT, osg::ClipControl::ZERO_TO_ONE), kAlways);
         set->setAttribute(new osg::ColorMask, kAlways);
         set->setAttribute(new osg::PolygonMode, kAlways);
-        for (const GLenum mode : {GL_ALPHA_TEST, GL_BLEND, GL_CULL_FACE, GL_POLYGON_STIPPLE, GL_SCISSOR_TEST, GL_STENCIL_TEST}) {
+        for (const GLenum mode :
+             {GL_ALPHA_TEST, GL_BLEND, GL_CULL_FACE, GL_POLYGON_STIPPLE, GL_SCISSOR_TEST, GL_STENCIL_TEST}) {
             set->setMode(mode, osg::StateAttribute::OFF | kAlways);
         }
         return set;
@@ -154,52 +156,6 @@ Shared::Shared()
     white = new osg::Texture2D(texel.get());
     white->setWrap(osg::Texture::WRAP_S, osg::Texture::REPEAT); // CLAMP mixes in a black border
     white->setWrap(osg::Texture::WRAP_T, osg::Texture::REPEAT);
-}
-
-View& Shared::viewOf(osg::Camera& camera, const gnomon::ShadowOptions& options)
-{
-    for (auto one = views.begin(); one != views.end();) {
-        const bool stays = one->second.camera.valid();
-        if (!stays) {
-            drop(one->second);
-        }
-        one = stays ? std::next(one) : views.erase(one);
-    }
-    const auto [place, added] = views.try_emplace(&camera);
-    if (added) {
-        place->second.camera = &camera;
-        place->second.planner = gnomon::Planner(options);
-    }
-    return place->second;
-}
-
-void Shared::releaseDrawn(osg::State* state)
-{
-    const std::lock_guard lock(mutex);
-    for (auto& [camera, view] : views) {
-        drop(view);
-    }
-    if (state != nullptr && state->getGraphicsContext() != nullptr && state->getGraphicsContext()->isCurrent()) {
-        refused.erase(state->getContextID());
-        const auto [first, last] = gone.equal_range(state->getContextID());
-        std::for_each(first, last, [&](auto& one) { one.second->release(*state->get<osg::GLExtensions>()); });
-        gone.erase(first, last);
-    }
-}
-
-void Shared::drop(View& view)
-{
-    gone.insert(view.drawn.begin(), view.drawn.end());
-    view.drawn.clear();
-}
-
-void Shared::setNotice(const std::string& text)
-{
-    const std::lock_guard lock(mutex);
-    if (!text.empty() && text != notice) {
-        OSG_WARN << "GnomonShadowTechnique: no shadows: " << text << std::endl;
-    }
-    notice = text;
 }
 
 // ---- A view's own depth

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of GnomonShadowTechnique that draws, by gnomon::gl in OSG's draw thread: maps, the depth pre-pass and the mask.
+// The part of GnomonShadowTechnique that draws, by gnomon::gl in OSG's draw thread: maps, the depth pre-pass and the
+// mask.
 #pragma once
 
 #include "gnomon_shadow_casters.h"
@@ -26,7 +27,6 @@ namespace gnomon_osg {
 constexpr unsigned kMostLights = 8; // as many as gl_LightSource has
 /// Variants of the casters' program, added.
 constexpr unsigned kMasked = 1, kMetric = 2, kSamples = 4, kColour = 8, kIds = 16, kVariants = 32;
-
 
 osg::ref_ptr<osg::Program> makeProgram(const std::string& vertex, const std::string& fragment);
 
@@ -85,8 +85,10 @@ class MaskTexture : public osg::StateAttribute {
 public:
     MaskTexture() = default;
     MaskTexture(const MaskTexture& other, const osg::CopyOp& copy) : StateAttribute(other, copy), name(other.name) {}
-    META_StateAttribute(gnomon_osg, MaskTexture, TEXTURE)
-    int compare(const StateAttribute& other) const override { return this < &other ? -1 : this > &other ? 1 : 0; }
+    META_StateAttribute(gnomon_osg, MaskTexture, TEXTURE) int compare(const StateAttribute& other) const override
+    {
+        return this < &other ? -1 : this > &other ? 1 : 0;
+    }
     bool isTextureAttribute() const override { return true; }
     void apply(osg::State&) const override { glBindTexture(GL_TEXTURE_2D_ARRAY, name); }
 

@@ -80,12 +80,14 @@ struct Lights {
 Lights findLights(osgUtil::CullVisitor& visitor, const osg::Matrixd& world_from_eye, const Settings& settings)
 {
     Lights found;
-    for (const auto& [attribute, eye_from_own] : visitor.getRenderStage()->getPositionalStateContainer()->getAttrMatrixList()) {
+    for (const auto& [attribute, eye_from_own] :
+         visitor.getRenderStage()->getPositionalStateContainer()->getAttrMatrixList()) {
         const auto* light = dynamic_cast<const osg::Light*>(attribute.get());
         if (light == nullptr || found.lights.size() == kMostLights) {
             continue;
         }
-        const osg::Matrixd world = (eye_from_own.valid() ? osg::Matrixd(*eye_from_own) : osg::Matrixd()) * world_from_eye;
+        const osg::Matrixd world =
+            (eye_from_own.valid() ? osg::Matrixd(*eye_from_own) : osg::Matrixd()) * world_from_eye;
         const osg::Vec4d place = osg::Vec4d(light->getPosition()) * world;
         osg::Vec3d way = osg::Matrixd::transform3x3(osg::Vec3d(light->getDirection()), world);
         gnomon::Light one;
@@ -138,6 +140,56 @@ std::optional<gnomon::Camera> findCamera(osgUtil::CullVisitor& visitor, const os
 
 } // namespace
 
+View& Shared::viewOf(osg::Camera& camera, const gnomon::ShadowOptions& options)
+{
+    for (auto one = views.begin(); one != views.end();) {
+        const bool stays = one->second.camera.valid();
+        if (!stays) {
+            drop(one->second);
+        }
+        one = stays ? std::next(one) : views.erase(one);
+    }
+    const auto [place, added] = views.try_emplace(&camera);
+    if (added) {
+        place->second.camera = &camera;
+        place->second.planner = gnomon::Planner(options);
+    }
+    return place->second;
+}
+
+void Shared::releaseDrawn(osg::State* state)
+{
+    const std::lock_guard lock(mutex);
+    for (auto& [camera, view] : views) {
+        if (state == nullptr) {
+            drop(view);
+        } else if (auto drawn = view.drawn.extract(state->getContextID())) {
+            gone.emplace(drawn.key(), std::move(drawn.mapped()));
+        }
+    }
+    if (state != nullptr && state->getGraphicsContext() != nullptr && state->getGraphicsContext()->isCurrent()) {
+        refused.erase(state->getContextID());
+        const auto [first, last] = gone.equal_range(state->getContextID());
+        std::for_each(first, last, [&](auto& one) { one.second->release(*state->get<osg::GLExtensions>()); });
+        gone.erase(first, last);
+    }
+}
+
+void Shared::drop(View& view)
+{
+    gone.insert(view.drawn.begin(), view.drawn.end());
+    view.drawn.clear();
+}
+
+void Shared::setNotice(const std::string& text)
+{
+    const std::lock_guard lock(mutex);
+    if (!text.empty() && text != notice) {
+        OSG_WARN << "GnomonShadowTechnique: no shadows: " << text << std::endl;
+    }
+    notice = text;
+}
+
 // ---- The technique
 
 GnomonShadowTechnique::GnomonShadowTechnique() : GnomonShadowTechnique(Settings{}) {}
@@ -145,7 +197,8 @@ GnomonShadowTechnique::GnomonShadowTechnique() : GnomonShadowTechnique(Settings{
 GnomonShadowTechnique::GnomonShadowTechnique(const Settings& settings)
     : settings_(settings), shared_(std::make_shared<Shared>())
 {
-    shared_->shade_program = makeProgram(kShadeVertex, std::string("#version 130\n") + kVisibilityGlsl + kShadeFragment);
+    shared_->shade_program =
+        makeProgram(kShadeVertex, std::string("#version 130\n") + kVisibilityGlsl + kShadeFragment);
 }
 
 GnomonShadowTechnique::GnomonShadowTechnique(const GnomonShadowTechnique& other, const osg::CopyOp&)

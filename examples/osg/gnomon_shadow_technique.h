@@ -57,8 +57,8 @@ public:
     GnomonShadowTechnique(const GnomonShadowTechnique& other, const osg::CopyOp& copy = osg::CopyOp::SHALLOW_COPY);
     META_Object(gnomon_osg, GnomonShadowTechnique)
 
-    /// From the next frame on. Call it between frames.
-    void setSettings(const Settings& settings);
+        /// From the next frame on. Call it between frames.
+        void setSettings(const Settings& settings);
     [[nodiscard]] const Settings& settings() const { return settings_; }
     /// Why the last frames have no shadows, as a sentence; empty: they have.
     [[nodiscard]] std::string notice() const;

@@ -74,20 +74,23 @@ struct World {
     }
 };
 
-int valueAt(const osg::Image& image, osgViewer::Viewer& viewer, const osg::Vec3d& p)
+int valueAt(const osg::Image& image, const osg::Camera& camera, const osg::Vec3d& p)
 {
-    const osg::Camera& camera = *viewer.getCamera();
     const osg::Vec3d seen = p * camera.getViewMatrix() * camera.getProjectionMatrix();
     const int x = int((seen.x() * 0.5 + 0.5) * image.s());
     const int y = int((seen.y() * 0.5 + 0.5) * image.t());
     return *image.data(unsigned(std::clamp(x, 0, image.s() - 1)), unsigned(std::clamp(y, 0, image.t() - 1)));
 }
 
-/// The shadows of box and plate lie where the light puts them.
-void expectShadows(const World& world, Offscreen& shown, const std::string& when, const osg::Vec3d& plate = {3, 3, 1})
+/// The shadows of box and plate lie where the light puts them. `eye`: the camera that sees them; null: the first.
+void expectShadows(const World& world, Offscreen& shown, const std::string& when, const osg::Vec3d& plate = {3, 3, 1},
+                   const osg::Camera* eye = nullptr)
 {
-    const osg::ref_ptr<osg::Image> mask = shown.picture();
-    const auto visibility = [&](const osg::Vec3d& p) { return valueAt(*mask, shown.viewer(), world.below(p)); };
+    const osg::Camera& camera = eye != nullptr ? *eye : *shown.viewer().getCamera();
+    const osg::ref_ptr<osg::Image> mask = shown.picture(&camera);
+    const auto visibility = [&](const osg::Vec3d& p) {
+        return valueAt(*mask, camera, world.below(p));
+    };
     expect(world.technique->notice().empty(), when + ": " + world.technique->notice());
     expect(visibility(plate) < 3, when + ", below the plate: " + std::to_string(visibility(plate)));
     expect(visibility({0.5, 1.5, 0.5}) < 3, when + ", behind the box");
@@ -98,12 +101,14 @@ void expectShadows(const World& world, Offscreen& shown, const std::string& when
 
 bool same(const osg::Image& a, const osg::Image& b)
 {
-    return a.getTotalSizeInBytes() == b.getTotalSizeInBytes() && std::memcmp(a.data(), b.data(), a.getTotalSizeInBytes()) == 0;
+    return a.getTotalSizeInBytes() == b.getTotalSizeInBytes() &&
+           std::memcmp(a.data(), b.data(), a.getTotalSizeInBytes()) == 0;
 }
 
 void checkTechniques()
 {
-    for (const char* options : {"auto", "hard", "pcf+cascades", "evsm", "msm+soften=blur", "pcf+tsm", "hard+map-format=r32f"}) {
+    for (const char* options :
+         {"auto", "hard", "pcf+cascades", "evsm", "msm+soften=blur", "pcf+tsm", "hard+map-format=r32f"}) {
         const World world(options);
         const auto shown = world.show();
         expectShadows(world, *shown, options);
@@ -142,7 +147,9 @@ void checkChanges()
     shown->resize(101, 53, 502, 301);
     expectShadows(world, *shown, "in a corner");
     const osg::ref_ptr<osg::Node> more = makeBox({-6, 0, 2}, {-5, 3, 3}, {1, 1, 1, 1});
-    const auto lit = [&](const osg::Vec3d& p) { return valueAt(*shown->picture(), shown->viewer(), world.below(p)) > 252; };
+    const auto lit = [&](const osg::Vec3d& p) {
+        return valueAt(*shown->picture(), *shown->viewer().getCamera(), world.below(p)) > 252;
+    };
     const osg::Vec3d top(-5.3, 2.5, 2.3);
     expect(lit(top), "lit before a box comes");
     world.models->addChild(more);
@@ -161,6 +168,23 @@ void checkChanges()
     expectShadows(world, *second, "the other beside it");
 }
 
+/// Two cameras in one context, each with its own plan, and frames that are drawn in a thread of their own.
+void checkTwoCameras()
+{
+    const World world;
+    const auto shown = world.show();
+    shown->resize(0, 0, 640, 200);
+    const osg::Camera& second = shown->addCamera(0, 200, 640, 200, osg::Matrixd::rotate(0.1, 0, 1, 0));
+    shown->viewer().setThreadingModel(osgViewer::Viewer::DrawThreadPerContext);
+    for (int i = 0; i < 10; ++i) {
+        world.plate->setMatrix(osg::Matrixd::translate(3.0 - 0.05 * i, 3, 1));
+        shown->frame();
+    }
+    shown->viewer().setThreadingModel(osgViewer::Viewer::SingleThreaded);
+    expectShadows(world, *shown, "the first of two cameras", {2.55, 3, 1});
+    expectShadows(world, *shown, "the second of two cameras", {2.55, 3, 1}, &second);
+}
+
 void checkReceivers()
 {
     const World world;
@@ -170,7 +194,9 @@ void checkReceivers()
     const osg::Vec3d way = world.below({3, 3, 1}) - osg::Vec3d(3, 3, 1);
     const osg::Vec3d on_top = osg::Vec3d(3, 3, 1) + way * (2.5 / 3.0);
     const osg::Vec3d inside(std::clamp(on_top.x(), 2.1, 3.9), 0.5, std::clamp(on_top.z(), 0.1, 1.9));
-    const auto visibility = [&] { return valueAt(*shown->picture(), shown->viewer(), inside); };
+    const auto visibility = [&] {
+        return valueAt(*shown->picture(), *shown->viewer().getCamera(), inside);
+    };
     world.plate->setMatrix(osg::Matrixd::translate(inside - way * (2.5 / 3.0)));
     expect(visibility() < 3, "a box that receives is in shadow");
     deaf->setNodeMask(kCasts);
@@ -203,7 +229,7 @@ void checkRefusal()
 {
     const World world("pcf+sdsm");
     const auto shown = world.show();
-    const int visibility = valueAt(*shown->picture(), shown->viewer(), world.below({3, 3, 1}));
+    const int visibility = valueAt(*shown->picture(), *shown->viewer().getCamera(), world.below({3, 3, 1}));
     expect(visibility > 252, "what is refused leaves the scene lit");
     expect(world.technique->notice().find("sdsm") != std::string::npos, "and says why: " + world.technique->notice());
 }
@@ -226,10 +252,12 @@ int run()
     checkTechniques();
     checkLamps();
     checkChanges();
+    checkTwoCameras();
     checkReceivers();
     checkStates();
     checkRefusal();
-    std::printf("%s, drawn by %s\n", all_good ? "all as it should be" : "not all as it should be", shown->renderer().c_str());
+    std::printf("%s, drawn by %s\n", all_good ? "all as it should be" : "not all as it should be",
+                shown->renderer().c_str());
     return all_good ? 0 : 1;
 }
 

@@ -15,6 +15,7 @@
 #include <osgShadow/ShadowMap>
 
 #include <chrono>
+#include <map>
 
 namespace {
 
@@ -232,12 +233,14 @@ struct Offscreen::Finish : osg::Camera::DrawCallback {
         renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
         if (wanted) {
             const osg::Viewport& area = *info.getCurrentCamera()->getViewport();
+            osg::ref_ptr<osg::Image>& image = images[info.getCurrentCamera()];
             image = new osg::Image;
-            image->readPixels(int(area.x()), int(area.y()), int(area.width()), int(area.height()), GL_RGB, GL_UNSIGNED_BYTE);
+            image->readPixels(int(area.x()), int(area.y()), int(area.width()), int(area.height()), GL_RGB,
+                              GL_UNSIGNED_BYTE);
         }
     }
     bool wanted = false;
-    mutable osg::ref_ptr<osg::Image> image;
+    mutable std::map<const osg::Camera*, osg::ref_ptr<osg::Image>> images;
     mutable std::string renderer;
     mutable int errors = 0;
 };
@@ -281,12 +284,12 @@ double Offscreen::frame()
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-osg::ref_ptr<osg::Image> Offscreen::picture()
+osg::ref_ptr<osg::Image> Offscreen::picture(const osg::Camera* camera)
 {
     finish_->wanted = true;
     viewer_.frame();
     finish_->wanted = false;
-    return finish_->image;
+    return finish_->images[camera != nullptr ? camera : viewer_.getCamera()];
 }
 
 const std::string& Offscreen::renderer() const
@@ -297,6 +300,19 @@ const std::string& Offscreen::renderer() const
 int Offscreen::errors() const
 {
     return finish_->errors;
+}
+
+osg::Camera& Offscreen::addCamera(int x, int y, int width, int height, const osg::Matrixd& turn)
+{
+    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setGraphicsContext(viewer_.getCamera()->getGraphicsContext());
+    camera->setViewport(x, y, width, height);
+    camera->setDrawBuffer(GL_FRONT);
+    camera->setReadBuffer(GL_FRONT);
+    camera->setClearColor(viewer_.getCamera()->getClearColor());
+    camera->setFinalDrawCallback(finish_);
+    viewer_.addSlave(camera, osg::Matrixd(), turn);
+    return *camera;
 }
 
 void Offscreen::resize(int x, int y, int width, int height)

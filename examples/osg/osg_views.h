@@ -55,8 +55,10 @@ public:
     ~Offscreen();
     /// Draws a frame, and waits for it. Milliseconds.
     double frame();
-    /// Draws a frame and reads it. Row 0 is the lowest.
-    osg::ref_ptr<osg::Image> picture();
+    /// Draws a frame and reads what a camera shows; null: the first one. Row 0 is the lowest.
+    osg::ref_ptr<osg::Image> picture(const osg::Camera* camera = nullptr);
+    /// A second camera in the same context, that looks as the first one does, turned.
+    osg::Camera& addCamera(int x, int y, int width, int height, const osg::Matrixd& turn);
     [[nodiscard]] osgViewer::Viewer& viewer() { return viewer_; }
     /// GL_RENDERER, after a frame.
     [[nodiscard]] const std::string& renderer() const;
