@@ -25,7 +25,8 @@
 namespace gnomon_osg {
 
 constexpr unsigned kMostLights = 8; // as many as gl_LightSource has
-/// Variants of the casters' program, added.
+/// Variants of the casters' program, added: cut out; writes the metric as depth, at each sample, or as a colour; writes
+/// whether it receives.
 constexpr unsigned kMasked = 1, kMetric = 2, kSamples = 4, kColour = 8, kIds = 16, kVariants = 32;
 
 osg::ref_ptr<osg::Program> makeProgram(const std::string& vertex, const std::string& fragment);
@@ -35,7 +36,7 @@ struct Drawn {
     std::unique_ptr<gnomon::gl::ShadowRenderer> renderer;
     GLuint framebuffer = 0;
     GLuint depth = 0;
-    GLuint ids = 0; // 0 where nothing receives; made when something does not
+    GLuint ids = 0; // R32UI, 0 at what takes no shadow; made where such a thing is
     glm::uvec2 size_px{0};
 
     Drawn() = default;

@@ -122,7 +122,7 @@ std::optional<gnomon::Camera> findCamera(osgUtil::CullVisitor& visitor, const os
         visitor.computeNearPlane();
         double near_m = visitor.getCalculatedNearPlane();
         double far_m = visitor.getCalculatedFarPlane();
-        if (near_m >= far_m) {
+        if (near_m > far_m) {
             return {};
         }
         visitor.clampProjectionMatrix(projection, near_m, far_m);

@@ -26,7 +26,7 @@ struct Settings {
     /// How wide directional lights are in the sky, radians, 0 .. pi/2; 0: hard shadows.
     double sun_diameter_rad = 0.00925025;
     double lamp_radius_m = 0.0; // of spot and point lights, metres, >= 0; 0: hard shadows
-    /// By which option auto weighs error against time: ratesOf(RateSource::software) for a software rasteriser.
+    /// Times by which auto weighs error: ratesOf(RateSource::software) for a software rasteriser.
     gnomon::DeviceRates rates = gnomon::ratesOf(gnomon::RateSource::gpu);
     /// The texture unit of the mask while the scene is shaded. No StateSet of the scene may use it.
     unsigned mask_unit = 7;
@@ -42,11 +42,11 @@ extern const char* const kVisibilityGlsl;
 /// Shadows of every osg::LightSource (at most 8) in the scene and before it: directional, spot and point lights. Each
 /// camera that looks at the scene has its own plan and maps; they go when the camera does.
 ///
-/// A frame goes: cull the scene, note all drawables below it (once a frame), plan; then in the draw thread, before the
-/// camera's own drawing, maps, a depth pre-pass and the mask. It draws casters by Drawable::draw(), with transforms as
-/// CullVisitor would have them, at the finest level of detail. Textures of unit 0 cut casters out where the StateSet
-/// blends or tests alpha. Vertex shaders of the scene do not move casters, billboards do not turn, and
-/// clip planes do not cut.
+/// In a frame it culls the scene, notes all drawables below it, and plans. In the draw thread, before the camera's own
+/// drawing, it draws maps, a depth pre-pass and the mask. Casters are drawn by Drawable::draw() with gl_Vertex, at the
+/// finest level of detail. Where a StateSet blends or tests alpha, the texture of unit 0 cuts them out; without one,
+/// what blends counts if its alpha is one half or more. Vertex shaders of the scene do not move casters, billboards do
+/// not turn, and clip planes do not cut.
 ///
 /// Needs a context of OpenGL 4.5 with compatibility. Another context, or options that gnomon::gl refuses, leave the
 /// scene lit: notice() and osg::notify(WARN) say why.
