@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <iterator>
 #include <memory>
 #include <sstream>
@@ -33,7 +34,7 @@ MODEL: a file that OSG reads; without one, boxes on a ground.
   --mask FILE         writes the visibility, 0 in shadow
   --truth FILE        prints the rmse of each technique's visibility against this picture of it
   --counted FILE      ... at pixels that are white here
-  --time N            prints each technique's time in N rounds that take turns
+  --time N            prints each technique's time in N rounds that take turns, nothing in motion
 Without a display run it by xvfb-run.
 )";
 
@@ -243,24 +244,33 @@ void printTimes(const Options& options, osg::Node& model)
         }
     }
     std::vector<std::vector<double>> times(all.size());
+    std::vector<std::vector<double>> work(all.size()); // of all threads, which other programs do not lengthen
     for (int round = 0; round < options.rounds; ++round) {
         for (std::size_t i = 0; i < all.size(); ++i) {
             for (int k = 0; k < kFrames; ++k) {
+                const std::clock_t start = std::clock();
                 const double time_ms = viewers[i]->frame();
                 if (k > 0) { // the first comes from another context
                     times[i].push_back(time_ms);
+                    work[i].push_back(double(std::clock() - start) * 1000.0 / CLOCKS_PER_SEC);
                 }
             }
         }
     }
-    std::printf("milliseconds a frame by %s, median (quartiles) of %d\n", viewers.front()->renderer().c_str(),
-                options.rounds * (kFrames - 1));
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        std::ranges::sort(times[i]);
+    std::printf("a frame by %s, medians (quartiles) of %d: ms of time, ms of all processors\n",
+                viewers.front()->renderer().c_str(), options.rounds * (kFrames - 1));
+    const auto print = [](std::vector<double>& values) {
+        std::ranges::sort(values);
         const auto at = [&](double share) {
-            return times[i][std::size_t(share * double(times[i].size() - 1))];
+            return values[std::size_t(share * double(values.size() - 1))];
         };
-        std::printf("%-28s %7.2f (%.2f to %.2f)\n", all[i].name.c_str(), at(0.5), at(0.25), at(0.75));
+        std::printf("  %7.1f (%.1f to %.1f)", at(0.5), at(0.25), at(0.75));
+    };
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        std::printf("%-24s", all[i].name.c_str());
+        print(times[i]);
+        print(work[i]);
+        std::printf("\n");
     }
 }
 
