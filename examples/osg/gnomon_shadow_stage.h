@@ -106,7 +106,6 @@ public:
     unsigned traversal_mask = ~0U;
     std::shared_ptr<const Casters> casters;
     gnomon::Plan plan;
-    osg::ref_ptr<osg::StateSet> shading = new osg::StateSet; // of the scene, when it is shaded
     osg::ref_ptr<MaskTexture> mask = new MaskTexture;
     osg::ref_ptr<osg::Uniform> lights = new osg::Uniform(osg::Uniform::FLOAT_VEC3, "gnomonLights", kMostLights);
     osg::ref_ptr<osg::Uniform> light_count = new osg::Uniform("gnomonLightCount", 0);

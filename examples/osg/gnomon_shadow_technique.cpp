@@ -39,45 +39,31 @@ void main()
     uv = vec2(gl_TextureMatrix[0] * gl_MultiTexCoord0);
     gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
 })";
-// The lighting of OpenGL's fixed functions, at each pixel, both sides of a surface alike. What no light of the frame
-// needs is not compiled.
+// The lighting of OpenGL's fixed functions, at each pixel, both sides of a surface alike.
 constexpr const char* kShadeFragment = R"(
 in vec3 point;
 in vec3 normal;
 in vec2 uv;
 uniform sampler2D gnomonBase;
-vec3 lit(int i, vec3 n)
-{
-    int k = gnomonLightNumber(i);
-#ifdef GNOMON_LAMPS
-    vec3 to = gl_LightSource[k].position.xyz - point * gl_LightSource[k].position.w;
-    float d = gl_LightSource[k].position.w == 0.0 ? 0.0 : length(to);
-    vec3 l = normalize(to);
-    float axis = dot(-l, normalize(gl_LightSource[k].spotDirection));
-    float cone = gl_LightSource[k].spotCutoff > 90.0 ? 1.0
-        : axis < gl_LightSource[k].spotCosCutoff ? 0.0 : pow(axis, gl_LightSource[k].spotExponent);
-    float fall = cone / (gl_LightSource[k].constantAttenuation + d * (gl_LightSource[k].linearAttenuation
-                         + d * gl_LightSource[k].quadraticAttenuation));
-#else
-    vec3 l = normalize(gl_LightSource[k].position.xyz);
-    float fall = 1.0;
-#endif
-    float facing = max(dot(n, l), 0.0);
-    vec3 direct = facing * gl_FrontLightProduct[k].diffuse.rgb;
-#ifdef GNOMON_SHINE
-    if (facing > 0.0) {
-        float shine = max(dot(n, normalize(l - normalize(point))), 1e-6);
-        direct += pow(shine, gl_FrontMaterial.shininess) * gl_FrontLightProduct[k].specular.rgb;
-    }
-#endif
-    return fall * (gl_FrontLightProduct[k].ambient.rgb + gnomonVisibility(i) * direct);
-}
 void main()
 {
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
     vec3 sum = gl_FrontLightModelProduct.sceneColor.rgb;
     for (int i = 0; i < gnomonLightCount; ++i) {
-        sum += lit(i, n);
+        int k = gnomonLightNumber(i);
+        vec3 to = gl_LightSource[k].position.xyz - point * gl_LightSource[k].position.w;
+        float d = gl_LightSource[k].position.w == 0.0 ? 0.0 : length(to);
+        vec3 l = normalize(to);
+        float axis = dot(-l, normalize(gl_LightSource[k].spotDirection));
+        float cone = gl_LightSource[k].spotCutoff > 90.0 ? 1.0
+            : axis < gl_LightSource[k].spotCosCutoff ? 0.0 : pow(axis, gl_LightSource[k].spotExponent);
+        float fall = cone / (gl_LightSource[k].constantAttenuation + d * (gl_LightSource[k].linearAttenuation
+                             + d * gl_LightSource[k].quadraticAttenuation));
+        float facing = max(dot(n, l), 0.0);
+        float shine = facing > 0.0
+            ? pow(max(dot(n, normalize(l - normalize(point))), 1e-6), gl_FrontMaterial.shininess) : 0.0;
+        sum += fall * (gl_FrontLightProduct[k].ambient.rgb + gnomonVisibility(i)
+               * (facing * gl_FrontLightProduct[k].diffuse.rgb + shine * gl_FrontLightProduct[k].specular.rgb));
     }
     vec4 base = texture(gnomonBase, uv);
     gl_FragColor = vec4(min(sum, 1.0) * base.rgb, gl_FrontMaterial.diffuse.a * base.a);
@@ -89,8 +75,6 @@ void main()
 struct Lights {
     std::vector<gnomon::Light> lights;
     std::vector<int> numbers;
-    bool lamps = false;  // some are no suns
-    bool shines = false; // some have a specular part
 };
 
 Lights findLights(osgUtil::CullVisitor& visitor, const osg::Matrixd& world_from_eye, const Settings& settings)
@@ -117,14 +101,11 @@ Lights findLights(osgUtil::CullVisitor& visitor, const osg::Matrixd& world_from_
             one.position_ws = glm::dvec3(place.x(), place.y(), place.z()) / place.w();
             one.outer_half_angle_rad = osg::DegreesToRadians(double(light->getSpotCutoff()));
             one.radius_m = settings.lamp_radius_m;
-            found.lamps = true;
         }
         way.normalize();
         one.direction_ws = {way.x(), way.y(), way.z()};
         const osg::Vec4& colour = light->getDiffuse();
         one.brightness = std::max(0.0, 0.2126 * colour.r() + 0.7152 * colour.g() + 0.0722 * colour.b());
-        const osg::Vec4& specular = light->getSpecular();
-        found.shines = found.shines || specular.r() > 0.0F || specular.g() > 0.0F || specular.b() > 0.0F;
         found.lights.push_back(one);
         found.numbers.push_back(light->getLightNum());
     }
@@ -217,8 +198,7 @@ GnomonShadowTechnique::GnomonShadowTechnique(const Settings& settings)
     : settings_(settings), shared_(std::make_shared<Shared>())
 {
     shared_->shade_program =
-        makeProgram(kShadeVertex, std::string("#version 130\n#pragma import_defines(GNOMON_LAMPS, GNOMON_SHINE)\n") +
-                                      kVisibilityGlsl + kShadeFragment);
+        makeProgram(kShadeVertex, std::string("#version 130\n") + kVisibilityGlsl + kShadeFragment);
 }
 
 GnomonShadowTechnique::GnomonShadowTechnique(const GnomonShadowTechnique& other, const osg::CopyOp&)
@@ -264,8 +244,8 @@ void GnomonShadowTechnique::cull(osgUtil::CullVisitor& visitor)
         }
     }
     osg::ref_ptr<MaskStage> stage = new MaskStage(shared_);
-    fillShading(*stage, *visitor.getViewport());
-    visitor.pushStateSet(stage->shading.get());
+    osg::ref_ptr<osg::StateSet> shading = makeShading(*stage, *visitor.getViewport());
+    visitor.pushStateSet(shading.get());
     scene.osg::Group::traverse(visitor);
     visitor.popStateSet();
     if (planFrame(*stage, visitor)) {
@@ -273,9 +253,9 @@ void GnomonShadowTechnique::cull(osgUtil::CullVisitor& visitor)
     }
 }
 
-void GnomonShadowTechnique::fillShading(MaskStage& stage, const osg::Viewport& viewport) const
+osg::ref_ptr<osg::StateSet> GnomonShadowTechnique::makeShading(MaskStage& stage, const osg::Viewport& viewport) const
 {
-    osg::StateSet* set = stage.shading.get();
+    osg::ref_ptr<osg::StateSet> set = new osg::StateSet;
     set->setTextureAttribute(settings_.mask_unit, stage.mask.get());
     set->addUniform(new osg::Uniform("gnomonMask", int(settings_.mask_unit)));
     set->addUniform(new osg::Uniform("gnomonOrigin", osg::Vec2(float(viewport.x()), float(viewport.y()))));
@@ -286,6 +266,7 @@ void GnomonShadowTechnique::fillShading(MaskStage& stage, const osg::Viewport& v
         set->setTextureAttribute(0, shared_->white.get());
         set->addUniform(new osg::Uniform("gnomonBase", 0));
     }
+    return set;
 }
 
 bool GnomonShadowTechnique::planFrame(MaskStage& stage, osgUtil::CullVisitor& visitor)
@@ -322,12 +303,6 @@ bool GnomonShadowTechnique::planFrame(MaskStage& stage, osgUtil::CullVisitor& vi
         stage.lights->setElement(i, osg::Vec3(float(lights.numbers[i]), layer, float(plan.mask_channel)));
     }
     stage.light_count->set(int(lights.numbers.size()));
-    if (lights.lamps) {
-        stage.shading->setDefine("GNOMON_LAMPS");
-    }
-    if (lights.shines) {
-        stage.shading->setDefine("GNOMON_SHINE");
-    }
     return true;
 }
 

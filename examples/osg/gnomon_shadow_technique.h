@@ -74,7 +74,7 @@ protected:
     ~GnomonShadowTechnique() override;
 
 private:
-    void fillShading(MaskStage& stage, const osg::Viewport& viewport) const;
+    osg::ref_ptr<osg::StateSet> makeShading(MaskStage& stage, const osg::Viewport& viewport) const;
     bool planFrame(MaskStage& stage, osgUtil::CullVisitor& visitor); // false: nothing is seen, or nothing shines
 
     Settings settings_;
