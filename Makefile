@@ -47,7 +47,7 @@ help:
 
 .PHONY: packages
 packages:
-	@tools/install_packages.sh --without site --without kit --without "compilers of the kit" packages.txt
+	@tools/install_packages.sh --without site --without kit --without "compilers of the kit" --without examples packages.txt
 
 .PHONY: configure
 configure: packages

@@ -41,6 +41,7 @@ FOREIGN_KINDS = [
     (r"^glm/", "glm"),
     (r"^imgui\w*\.h$", "imgui"),
     (r"^(GLFW/|SDL|X11/|xcb/|wayland)", "window"),
+    (r"^osg\w*/", "osg"),
     (r"^(GL/|GLES|EGL/|d3d|Metal/|volk\.h)", "graphics"),
     (r"^png(conf)?\.h$", "png"),
     (r"^(jpeglib|jerror)\.h$", "jpeg"),
@@ -103,6 +104,7 @@ RULES = [
     ("app/src/view/", ABOVE | {"app", "worlds", "imgui"}, "the window's panels are of Dear ImGui"),
     ("examples/", STD | PUBLIC | {"c-public", "gl-public", "glm", "vulkan-api", "graphics", "spirv", "shared", "shader-lib"},
      "an example is an engine: it has the library's public headers and nothing else of ours"),
+    ("examples/osg/", STD | PUBLIC | {"gl-public", "glm", "graphics", "osg"}, "one by OpenSceneGraph has that, too"),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')

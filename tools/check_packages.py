@@ -31,9 +31,10 @@ TESTS = (*PROGRAM, "to run without a GPU", "tests and benchmarks")
 CHECKS = (*TESTS, "checks (.ci/run)")
 SITE = (*CHECKS, "site")
 KIT = (*CHECKS, "kit", "compilers of the kit")
+EXAMPLES = (*TESTS, "examples")
 # (beginning of a path, which sections its files may use); the longest counts. Objects lie in the folders of their targets.
 SECTIONS = [("", CHECKS), ("cmake/", PROGRAM), ("core/", LIBRARY), ("pack/", LIBRARY), ("vulkan/", LIBRARY), ("shaders/", LIBRARY),
-            ("gl/", TESTS), ("examples/", LIBRARY), ("examples/gl_host/", TESTS),
+            ("gl/", TESTS), ("examples/", LIBRARY), ("examples/gl_host/", TESTS), ("examples/osg/", EXAMPLES),
             *((f"{name}/", PROGRAM) for name in ("files", "image", "scene", "worlds", "truth", "host", "lab", "app")),
             ("tests/", TESTS), ("tests/fuzz/", CHECKS), ("tests/site/", SITE), ("kit/", KIT), ("tests/kit/", KIT),
             ("tools/make_", SITE), ("tools/site_pages.py", SITE)]
@@ -198,7 +199,7 @@ def main() -> int:
     wanted = listed(options.list or root / "packages.txt")
     bare = re.search(r"--include=(\S+)", (project_root() / "tools/bare_root.sh").read_text(encoding="utf-8"))[1].split(",")
     allowed = {sections: packages.closure([*bare, *(name for section in sections for name in wanted.get(section, []))])
-               for sections in (LIBRARY, PROGRAM, TESTS, CHECKS, SITE, KIT)}
+               for sections in (LIBRARY, PROGRAM, TESTS, CHECKS, SITE, KIT, EXAMPLES)}
     if options.programs:
         print(f"packages: {link_programs(packages, allowed[SITE] | allowed[KIT], options.programs)} programs in {options.programs}")
     uses = list(used_by_scripts(root))

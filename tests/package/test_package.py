@@ -168,6 +168,18 @@ class Installed(Case):
         self.passes(run("cmake", "--build", build))
         self.assertIn("frame 1, pass mask", self.passes(run(build / "c_host")))
 
+    @unittest.skipUnless(shutil.which("xvfb-run") and shutil.which("xauth") and
+                         run("pkg-config", "--exists", "openscenegraph").returncode == 0, "no OpenSceneGraph, or no xvfb-run")
+    def test_osg(self):
+        if not self.has_gl():
+            self.skipTest("no OpenGL backend")
+        build = folder("osg")
+        self.passes(configure(next(self.prefix.rglob("examples/osg")), build, self.found))
+        self.passes(run("cmake", "--build", build))
+        picture = build / "picture.png"
+        self.passes(run("xvfb-run", "-a", build / "gnomon_osg", "--technique", "pcf", "--size", "320x200", "--screenshot", picture))
+        self.assertTrue(picture.is_file())
+
 
 class InBuild(Case):
     def test_add_subdirectory(self):
