@@ -103,13 +103,6 @@ void requireContext(const osg::GLExtensions& gl)
     }
 }
 
-void unbindSamplers(const osg::GLExtensions& gl)
-{
-    for (unsigned unit = 0; unit < 12; ++unit) { // those that gnomon::gl leaves; osg::State knows of none
-        gl.glBindSampler(unit, 0);
-    }
-}
-
 /// Gives OSG its state back, also when something throws.
 struct RestoredState {
     osg::State& state;
@@ -127,7 +120,6 @@ struct RestoredState {
     {
         gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(draw));
         gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(read));
-        unbindSamplers(gl);
         state.dirtyAllVertexArrays();
         state.dirtyAllModes();
         state.dirtyAllAttributes();
@@ -334,7 +326,6 @@ void MaskStage::drawPicture(osg::RenderInfo& info, const osg::GLExtensions& gl, 
 /// OSG draws with vertex array 0 where it uses none of its own.
 void MaskStage::beginCasters(osg::RenderInfo& info, const osg::GLExtensions& gl)
 {
-    unbindSamplers(gl);
     info.getState()->unbindVertexArrayObject();
     gl.glBindVertexArray(0);
     info.getState()->dirtyAllVertexArrays();

@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t kImages = static_cast<std::size_t>(pack::ImageName::camera_ids) + 1;
 constexpr std::size_t kBuffers = static_cast<std::size_t>(pack::BufferName::points) + 1;
 
+constexpr GLuint kUnits = 12; // texture units that modules have
+
 GLenum formatOf(const std::optional<MapFormat>& format)
 {
     return format ? mapStorage(*format).mapFormat() : GL_R32UI;
@@ -110,6 +112,15 @@ void Executor::run(const pack::CommandList& list, const Host& host)
     }
     setSwitch(context_, GL_DEPTH_TEST, false);
     context_.gl.Disablei(GL_BLEND, 0);
+    unbindSamplers();
+}
+
+/// A sampler that stays bound would override a host's parameters of textures.
+void Executor::unbindSamplers()
+{
+    for (GLuint unit = 0; unit < kUnits; ++unit) {
+        context_.gl.BindSampler(unit, 0);
+    }
 }
 
 void Executor::forget()
@@ -233,6 +244,9 @@ void Executor::carryOut(const pack::DrawMapCasters& command)
     pass.clip_from_world = glm::mat4(view.projection.clip_from_world);
     pass.metric_ws = glm::vec4(view.projection.metric.metric_ws);
     aim(command.target);
+    if (bound_.count > 0) {
+        unbindSamplers();
+    }
     setSwitch(context_, GL_DEPTH_TEST, true);
     setSwitch(context_, GL_DEPTH_CLAMP, view.projection.clamp_near);
     (*host_->draw)(pass);

@@ -57,6 +57,7 @@ private:
     void carryOut(const pack::DrawTriangle& command);
     void carryOut(const pack::RunCompute& command);
     void aim(const pack::CommandTarget& target);
+    void unbindSamplers();
     void attach(GLenum attachment, const std::optional<pack::ImageRef>& image, std::uint32_t layer);
     void bind(const pack::CommandBinding& binding);
     void use(GLuint program, const pack::CommandRange& push, const pack::CommandRange& bindings);

@@ -164,7 +164,18 @@ TEST(GlState, IsAsTheHostHadIt)
     const std::vector<GLint> before = state();
     const std::vector<std::byte> drawn = by_gl.draw(plan);
     EXPECT_EQ(state(), before);
-    const auto fail = [](const gl::MapPass&) {
+    const auto samplers = [] {
+        int bound = 0;
+        for (GLenum unit = 0; unit < 12; ++unit) {
+            GLint sampler = 0;
+            glGetIntegeri_v(GL_SAMPLER_BINDING, unit, &sampler);
+            bound += sampler != 0 ? 1 : 0;
+        }
+        return bound;
+    };
+    EXPECT_EQ(samplers(), 0);
+    const auto fail = [&](const gl::MapPass&) {
+        EXPECT_EQ(samplers(), 0) << "in the callback";
         throw std::runtime_error("a host's own");
     };
     by_gl.renderer.reset();

@@ -101,9 +101,9 @@ struct MapReuse {
 ///
 /// A call restores the state that it changes: framebuffers, program, vertex array, viewport, scissor, clip control,
 /// depth, blending and write masks of draw buffer 0, polygon mode and the switches of GL_DEPTH_TEST and its like. It
-/// leaves changed, to be bound anew by who needs them: texture units 0 to 11 with their samplers, image units 0 to 2,
-/// the uniform buffers 0, 4, 8 and 13, and the storage buffers 1 to 5 and 12. Errors that glGetError() holds when
-/// prepare() is called are lost.
+/// leaves changed, to be bound anew by who needs them: texture units 0 to 11, image units 0 to 2, the uniform buffers 0,
+/// 4, 8 and 13, and the storage buffers 1 to 5 and 12. These texture units have no sampler object afterwards, nor in the
+/// callback. Errors that glGetError() holds when prepare() is called are lost.
 ///
 /// Throws Error from prepare() for what it does not do, with a sentence: partition sdsm and paraboloid, classic filters
 /// (id, depth-id, smoothies, volumes), soften smoothies and converge, motion step-alternate, caster-faces midpoint,
