@@ -4,14 +4,6 @@
 #include <gnomon/plan_views.h>
 
 namespace gnomon::pack {
-namespace {
-
-bool isDepth(MapFormat format)
-{
-    return format == MapFormat::d16 || format == MapFormat::d24 || format == MapFormat::d32f;
-}
-
-} // namespace
 
 MapAttachments mapAttachments(const ResolvedOptions& options, bool orthographic)
 {
@@ -42,9 +34,6 @@ MapAttachments mapAttachments(const Plan& plan, const View& view)
 std::uint32_t channelsOfPart(MapFormat format, TexelPart part)
 {
     constexpr std::uint32_t kAll = 0xF;
-    if (isDepth(format)) {
-        return 0;
-    }
     const bool is_first = part == TexelPart::first;
     if (part != TexelPart::whole && (format == MapFormat::rg16 || format == MapFormat::rg16f)) {
         return is_first ? 0x1 : 0x2;

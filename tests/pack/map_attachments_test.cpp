@@ -63,7 +63,7 @@ TEST(MapAttachments, PartsOfATexelShareNoChannel)
     }
     EXPECT_EQ(pack::channelsOfPart(MapFormat::rg16, TexelPart::second), 0x2U);
     EXPECT_EQ(pack::channelsOfPart(MapFormat::rgba8, TexelPart::second), 0xCU);
-    EXPECT_EQ(pack::channelsOfPart(MapFormat::d32f, TexelPart::whole), 0U);
+    EXPECT_EQ(pack::channelsOfPart(MapFormat::r32f, TexelPart::first), 0xFU);
 }
 
 // Every texel of a map lies in a block of each level, and the last level has one block.

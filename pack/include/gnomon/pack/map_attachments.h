@@ -30,6 +30,11 @@ struct MapAttachments {
     friend bool operator==(const MapAttachments&, const MapAttachments&) = default;
 };
 
+/// Is it a format of depth attachments?
+[[nodiscard]] constexpr bool isDepth(MapFormat format)
+{
+    return format == MapFormat::d16 || format == MapFormat::d24 || format == MapFormat::d32f;
+}
 /// The attachments of a view with these options. `orthographic`: ViewProjection::orthographic.
 /// Precondition: options.hasMaps().
 [[nodiscard]] GNOMON_API MapAttachments mapAttachments(const ResolvedOptions& options, bool orthographic);
@@ -37,7 +42,7 @@ struct MapAttachments {
 [[nodiscard]] GNOMON_API MapAttachments mapAttachments(const Plan& plan, const View& view);
 
 /// The channels of a format's texels that hold this part of them, a bit each: bit 0 red to bit 3 alpha. The others
-/// belong to another map: neither clear nor write them. 0 for a depth format.
+/// belong to another map: neither clear nor write them. A format that holds one map a texel has only the whole.
 [[nodiscard]] GNOMON_API std::uint32_t channelsOfPart(MapFormat format, TexelPart part);
 
 } // namespace gnomon::pack
