@@ -96,7 +96,7 @@ export function makeCourt() {
 
   const move = (time_s, height_deg, lamps) => {
     const height = THREE.MathUtils.degToRad(height_deg);
-    sun.position.set(30 * Math.cos(height) * 0.75, 30 * Math.sin(height), 30 * Math.cos(height) * 0.66);
+    sun.position.set(30 * Math.cos(height) * 0.86, 30 * Math.sin(height), -30 * Math.cos(height) * 0.5);
     knot.rotation.set(0.4 * time_s, 0.6 * time_s, 0);
     lamp.position.set(-5.4 + 1.2 * Math.sin(0.7 * time_s), 2.4, -2.6 + 1.2 * Math.cos(0.7 * time_s));
     lamp.visible = spot.visible = lamps;

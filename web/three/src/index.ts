@@ -4,7 +4,7 @@ import {CasterPipelines, flipY, loadGnomon, loadShaders, ShadowRenderer, type Gn
 import {Matrix4, Vector2, Vector3, type Camera, type Scene, type WebGPURenderer} from 'three/webgpu';
 import {backendOf} from './backend.js';
 import {Geometries} from './geometries.js';
-import {MaskTexture, SceneLights} from './lights.js';
+import {LAMPS, MaskTexture, SceneLights, SUNS} from './lights.js';
 import {SceneObjects} from './objects.js';
 import {Prepass} from './prepass.js';
 
@@ -12,7 +12,7 @@ export type {LightSettings} from './lights.js';
 
 /** How shadows are made. */
 export interface GnomonShadowsOptions {
-    /** Values with "+" between them, such as "pcf+cascades" or "raymarch+map-size=1024"; default: "auto". */
+    /** Values with "+" between them, such as "pcf+cascades" or "raymarch+map-size=1024"; default: "auto". Lamps leave out partition and fit. */
     technique?: string;
     /** Further options by their names, as `gnomon --set` has them. */
     options?: Record<string, string | number>;
@@ -128,20 +128,23 @@ export class GnomonShadows {
         }
     };
 
+    /** Options 0 are those of suns, options 1 those of lamps, whose partition and fit go by their own shape. */
     private setOptions(planner: Planner, gnomon: Gnomon): void {
+        const all = gnomon.options();
+        const set = (key: string, value: string | number): void => {
+            planner.set(key, value, SUNS);
+            planner.set(key, key === 'partition' || key === 'fit' ? '' : value, LAMPS);
+        };
         for (const word of (this.asked.technique ?? 'auto').split('+').filter(one => one !== 'auto')) {
             const [key, value] = word.split('=');
-            if (value !== undefined) {
-                planner.set(key!, value);
-                continue;
-            }
-            const choice = gnomon.options().find(one => CHOICES.includes(one.key) && one.choices.split(' ').includes(word));
-            if (!choice) {
+            const choice = value === undefined ? all.find(one => CHOICES.includes(one.key) && one.choices.split(' ').includes(word)) : undefined;
+            if (value === undefined && !choice) {
                 throw new Error(`cannot set the technique ${this.asked.technique}: there is no value ${word}`);
             }
-            planner.set(choice.key, word);
+            set(choice?.key ?? key!, value ?? word);
         }
-        Object.entries(this.asked.options ?? {}).forEach(([key, value]) => planner.set(key, value));
+        Object.entries(this.asked.options ?? {}).forEach(([key, value]) => set(key, value));
+        planner.set('map-size', planner.get('map-size', SUNS), LAMPS); // there are options of lamps even where nothing is asked
     }
 }
 

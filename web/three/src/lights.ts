@@ -6,6 +6,9 @@ import {ExternalTexture, NearestFilter, Vector2, Vector3, Vector4, type Camera, 
         type PointLight, type SpotLight} from 'three/webgpu';
 
 const SUN_DEGREES = 0.53;
+/** The planner's options of directional lights, and those of spot and point lights. */
+export const SUNS = 0;
+export const LAMPS = 1;
 
 /** What three.js' lights have no member for: `light.userData.gnomon`. */
 export interface LightSettings {
@@ -126,14 +129,14 @@ export class SceneLights {
         this.from.setFromMatrixPosition(light.matrixWorld);
         const key = light.id;
         if ('isPointLight' in light) {
-            return {key, type: LightType.point, positionWs: this.from.toArray(), rangeM: light.distance, radiusM: settings.radius ?? 0};
+            return {key, type: LightType.point, options: LAMPS, positionWs: this.from.toArray(), rangeM: light.distance, radiusM: settings.radius ?? 0};
         }
         const aimed = light as DirectionalLight | SpotLight;
         this.to.setFromMatrixPosition(aimed.target.matrixWorld);
         const directionWs = this.to.sub(this.from).normalize().toArray();
         if ('isSpotLight' in light) {
             const spot = light as SpotLight;
-            return {key, type: LightType.spot, positionWs: this.from.toArray(), directionWs, outerHalfAngleRad: spot.angle, rangeM: spot.distance,
+            return {key, type: LightType.spot, options: LAMPS, positionWs: this.from.toArray(), directionWs, outerHalfAngleRad: spot.angle, rangeM: spot.distance,
                     radiusM: settings.radius ?? 0};
         }
         return {key, type: LightType.directional, directionWs, angularDiameterRad: (settings.angularDiameter ?? SUN_DEGREES) * Math.PI / 180};
