@@ -5,7 +5,8 @@
 usage: measure_three.py [--size WxH] [--map-size N] [--frames N] [--techniques LIST] [--only SCENE] [--pictures FOLDER] GNOMON SHARED WEB
 
 GNOMON is the program, which traces the truth; SHARED has scenes/; WEB has the built packages, dist/ and three/ with dist/ and
-node_modules/. Chromium draws with SwiftShader. Times are milliseconds that shadows add to the frame without them: medians.
+node_modules/. A technique of three.js' own may set members of its LightShadow: "pcf+bias=-0.002+normalBias=0.05+radius=2".
+Chromium draws with SwiftShader. Times are milliseconds that shadows add to the frame without them: medians.
 """
 
 import argparse
@@ -46,7 +47,9 @@ def measure(options: argparse.Namespace, tab: browser.Browser, address: str, nam
     width, height = map(int, options.size.split("x"))
     rows, bare = [], 0.0
     for technique in ["none", *options.techniques.split(",")]:
-        job = VIEWS[name] | {"technique": technique, "width": width, "height": height, "map_size": options.map_size, "frames": options.frames,
+        own, _, words = technique.partition("+") if not technique.startswith("gnomon:") else (technique, "", "")
+        settings = {key: float(value) for key, value in (word.split("=") for word in words.split("+") if word)}
+        job = VIEWS[name] | {"technique": own, "set": settings, "width": width, "height": height, "map_size": options.map_size, "frames": options.frames,
                              "address": f"{address}scenes/{name}/{name}.gltf", "truth": f"{address}{name}.png"}
         tab.problems.clear()
         tab.visit(f"{address}web/three/measure.html")

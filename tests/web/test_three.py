@@ -2,15 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Gnomon's shadows for three.js (web/three): the example's mask is held to rays, and what it tracks to changes of the scene.
 
-usage: test_three.py PACKAGE_DIST BUILD [RESULTS.json]
+usage: test_three.py PACKAGES BUILD [RESULTS.json]
 
-PACKAGE_DIST is dist/ of the npm package; BUILD is a folder for what is made: npm installs three.js there at the version of
-web/three/package-lock.json. Without node, npm or Chromium nothing is tested, which is said; exit status 77.
+PACKAGES is the folder that `make web` fills; BUILD is a folder for what is made: npm installs three.js there at the version of
+web/three/package-lock.json. Without the package, node, npm or Chromium nothing is tested, which is said; exit status 77.
 """
 
 import shutil
 import subprocess
 import sys
+import tarfile
 import unittest
 from pathlib import Path
 
@@ -22,17 +23,23 @@ from browser import Browser, find_chromium  # noqa: E402
 from recorder import run_cases  # noqa: E402
 from serving import FLAGS, Server  # noqa: E402
 
-DIST, BUILD = (Path(one).resolve() for one in sys.argv[1:3])
+PACKAGES, BUILD = (Path(one).resolve() for one in sys.argv[1:3])
 RESULTS = Path(sys.argv[3]) if len(sys.argv) > 3 else None
 SLOW_S = 300  # SwiftShader compiles each pipeline on one processor
 MOST_WRONG = 0.02  # share of points: beside edges a texel of a map decides
+
+
+def packages() -> list[Path]:
+    return sorted(PACKAGES.glob("gnomon-shadows-*.tgz"))
 
 
 def build(folder: Path) -> None:
     """web/three and the package beside it, as they would be served."""
     shutil.rmtree(folder / "three/src", ignore_errors=True)
     shutil.copytree(THREE, folder / "three", dirs_exist_ok=True, ignore=shutil.ignore_patterns("node_modules", "dist"))
-    shutil.copytree(DIST, folder / "dist", dirs_exist_ok=True)
+    with tarfile.open(packages()[0]) as package:
+        package.extractall(folder / "unpacked", filter="data")
+    shutil.copytree(folder / "unpacked/package/dist", folder / "dist", dirs_exist_ok=True)
     if not (folder / "three/node_modules/.bin/tsc").exists():
         subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=folder / "three", check=True, capture_output=True)
     subprocess.run(["node_modules/.bin/tsc", "-p", "."], cwd=folder / "three", check=True)
@@ -138,6 +145,9 @@ class ForThree(unittest.TestCase):
 
 if __name__ == "__main__":
     missing = [name for name, there in (("node", shutil.which("node")), ("npm", shutil.which("npm")), ("Chromium", find_chromium())) if not there]
+    if not packages():
+        print(f"SKIPPED: there is no package in {PACKAGES}; make web makes it")
+        sys.exit(77)
     if missing:
         print(f"SKIPPED: {', '.join(missing)} is missing; install the sections kit and tests of packages.txt")
         sys.exit(77)
