@@ -39,6 +39,7 @@ export class GnomonShadows {
     private readonly camera: Camera;
     private readonly asked: GnomonShadowsOptions;
     private parts: Parts | null = null;
+    private hooked: Scene['onBeforeRender'] | null = null; // the scene's own
     private readonly size = new Vector2();
     private readonly matrix = new Matrix4();
     private readonly eye = new Vector3();
@@ -64,8 +65,11 @@ export class GnomonShadows {
                       casters: new CasterPipelines(device, planner, shaders), objects: new SceneObjects(set, geometries, this.note),
                       lights: new SceneLights(mask), prepass: new Prepass(this.renderer)};
         this.renderer.shadowMap.enabled = true;
-        this.scene.onBeforeRender = (_renderer, _scene, camera) => {
-            mask.counts.value = camera === this.camera ? 1 : 0;
+        const {onBeforeRender} = this.scene;
+        this.hooked = onBeforeRender;
+        this.scene.onBeforeRender = (...args) => {
+            onBeforeRender.apply(this.scene, args);
+            mask.counts.value = args[2] === this.camera ? 1 : 0;
         };
         return this;
     }
@@ -78,7 +82,9 @@ export class GnomonShadows {
         const {device, planner, shadows, casters, objects, lights, prepass, mask, set} = this.parts;
         const {renderer, scene, camera} = this;
         scene.updateMatrixWorld();
-        camera.updateMatrixWorld();
+        if (camera.parent === null) {
+            camera.updateMatrixWorld();
+        }
         renderer.getDrawingBufferSize(this.size);
         const [width, height] = [Math.max(this.size.x, 1), Math.max(this.size.y, 1)];
         lights.update(scene, camera);
@@ -113,7 +119,10 @@ export class GnomonShadows {
     dispose(): void {
         const parts = this.parts;
         this.parts = null;
-        this.scene.onBeforeRender = () => undefined;
+        if (this.hooked) {
+            this.scene.onBeforeRender = this.hooked;
+            this.hooked = null;
+        }
         parts?.lights.dispose();
         parts?.prepass.dispose();
         parts?.shadows.destroy();
