@@ -94,11 +94,12 @@ Counts countOf(const Plan& plan, const Light& light)
         for (const View& view : plan.views) {
             const Rows rows(view);
             const double metric = glm::dot(rows.metric, glm::dvec4(p, 1.0));
-            if (!view.serves.slice.holds(p) || !view.serves.sector.holds(p) || glm::dot(rows.w, glm::dvec4(p, 1.0)) <= 0.0 ||
-                metric < 0.0 || metric > 1.0) {
+            if (!view.serves.slice.holds(p) || !view.serves.sector.holds(p) ||
+                glm::dot(rows.w, glm::dvec4(p, 1.0)) <= 0.0 || metric < 0.0 || metric > 1.0) {
                 continue;
             }
-            const glm::dvec3 to_light = view.projection.parallel ? -light.direction_ws : glm::normalize(light.position_ws - p);
+            const glm::dvec3 to_light =
+                view.projection.parallel ? -light.direction_ws : glm::normalize(light.position_ws - p);
             n = glm::dot(n, to_light) < 0.0 ? -n : n;
             const Plane plane(rows, p, n);
             const glm::dvec2 size(view.place.tile.width, view.place.tile.height);
@@ -142,7 +143,8 @@ TEST(PlaneBias, NeverLetsAPlaneShadowItselfInAnyKindOfMap)
         light.position_ws = type == LightType::directional ? glm::dvec3(0.0) : glm::dvec3(-6.0, 9.0, -4.0);
         for (const Fit fit : {Fit::uniform, Fit::lispsm, Fit::tsm}) {
             for (const Filter filter : {Filter::hard, Filter::pcf}) {
-                SCOPED_TRACE(testing::Message() << "light " << int(type) << ", fit " << int(fit) << ", filter " << int(filter));
+                SCOPED_TRACE(testing::Message()
+                             << "light " << int(type) << ", fit " << int(fit) << ", filter " << int(filter));
                 ShadowOptions options{.technique = kPlainTechnique};
                 options.technique.partition = type == LightType::point ? Partition::cube : Partition::single;
                 options.technique.fit = fit;

@@ -40,7 +40,8 @@ bool mayKeepStill(const ResolvedOptions& options)
 
 DepthMaps::DepthMaps(Device& device, const MapStorage& storage, const ResolvedOptions& options, VkPipelineCache cache,
                      const Classics* classics)
-    : device_(device), storage_(storage), clear_(pack::mapAttachments(options, true).clear_colour), cache_(cache), classics_(classics)
+    : device_(device), storage_(storage), clear_(pack::mapAttachments(options, true).clear_colour), cache_(cache),
+      classics_(classics)
 {
     if (options.traits().integrates_light) {
         step_ = std::make_unique<DepthBlocks>(device, cache);
