@@ -11,7 +11,6 @@ web/three/package-lock.json. Without the package, node, npm or Chromium nothing 
 import shutil
 import subprocess
 import sys
-import tarfile
 import unittest
 from pathlib import Path
 
@@ -37,8 +36,7 @@ def build(folder: Path) -> None:
     """web/three and the package beside it, as they would be served."""
     shutil.rmtree(folder / "three/src", ignore_errors=True)
     shutil.copytree(THREE, folder / "three", dirs_exist_ok=True, ignore=shutil.ignore_patterns("node_modules", "dist"))
-    with tarfile.open(packages()[0]) as package:
-        package.extractall(folder / "unpacked", filter="data")
+    shutil.unpack_archive(packages()[0], folder / "unpacked")
     shutil.copytree(folder / "unpacked/package/dist", folder / "dist", dirs_exist_ok=True)
     if not (folder / "three/node_modules/.bin/tsc").exists():
         subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=folder / "three", check=True, capture_output=True)
