@@ -27,6 +27,7 @@ import npm
 
 PAGE = Path(__file__).resolve().parent.parent / "docs/kit.md"
 BEGIN, END = "<!-- made by kit/check_kit.py --update -->", "<!-- to here -->"
+ROOT_SIGNATURE = "<!-- kit/check_kit.py compiles every module with it -->"
 PROFILES = {"vertex": "vs_6_0", "fragment": "ps_6_0", "compute": "cs_6_0"}
 WINE = ("wine64", "/usr/lib/wine/wine64")
 
@@ -124,11 +125,17 @@ def ask_dxc(files: list[File], kit: dict, build: Path) -> Refusals:
     subprocess.run([compiler, "-std=c17", "-O1", "-Wall", "-Wextra", "-Werror", "-o", str(made), str(npm.HERE / "dxc.c")], check=True)
     library = folder / "node_modules/webgpu/dist/win32-x64/dxcompiler.dll"
     words = [word for file in files for word in (PROFILES[file.stage], str(file.path))]
-    done = subprocess.run([wine, str(made), str(library), *words], capture_output=True, text=True, check=False, timeout=600,
+    done = subprocess.run([wine, str(made), str(library), root_signature(), *words], capture_output=True, text=True, check=False, timeout=600,
                           env={**os.environ, "WINEPREFIX": str(folder / "wine"), "WINEDEBUG": "-all"})
     if done.returncode != 0:
         raise RuntimeError(f"dxc.exe ended with status {done.returncode}: {done.stdout.strip()}")
     return by_lines(done.stdout, files) | unlinked(done.stdout, files, kit)
+
+
+def root_signature() -> str:
+    """The one that docs/direct3d.md has for all modules, as a macro's value."""
+    text = (PAGE.parent / "direct3d.md").read_text(encoding="utf-8").partition(ROOT_SIGNATURE)[2]
+    return '"' + " ".join(text.partition("```hlsl")[2].partition("```")[0].split()) + '"'
 
 
 def unlinked(text: str, files: list[File], kit: dict) -> Refusals:

@@ -5,6 +5,7 @@
 of its own everywhere but in SPIR-V.
 """
 
+import re
 import subprocess
 from pathlib import Path
 
@@ -155,7 +156,7 @@ def write(name: str, module: Module, dialect: str, inputs: list[dict], given: li
     flip = ("--flip-vert-y",) if stage == "vertex" and dialect in ("hlsl", "msl") else () # naga does so by itself
     text = run("spirv-cross", str(path), *OPTIONS[dialect], *extensions(module, dialect), *flip)
     if layered:
-        text = text.replace(f": TEXCOORD{LAYER_LOCATION};", ": SV_RenderTargetArrayIndex;")
+        text = re.sub(rf"(sample )?int (\w+) : TEXCOORD{LAYER_LOCATION};", r"uint \2 : SV_RenderTargetArrayIndex;", text)
     return text
 
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// usage: dxc.exe DXCOMPILER.DLL { PROFILE FILE }... : compiles each HLSL file with Direct3D's compiler, and prints a line
-// "FILE: MESSAGE" for each that it refuses; else "FILE@i NAME INDEX MASK REGISTER" for each input, and with @o for each output. A
+// usage: dxc.exe DXCOMPILER.DLL ROOT_SIGNATURE { PROFILE FILE }... : compiles each HLSL file with Direct3D's compiler and this root
+// signature, a text, and prints a line "FILE: MESSAGE" for each that it refuses; else "FILE@i NAME INDEX MASK REGISTER" for each input, and with @o for each output. A
 // Windows program, for Wine.
 #include <ctype.h>
 #include <stdio.h>
@@ -29,6 +29,8 @@ typedef HRESULT(__stdcall* Disassemble)(Object*, const Buffer*, const GUID*, voi
 typedef void*(__stdcall* GetData)(Object*);
 typedef size_t(__stdcall* GetSize)(Object*);
 typedef ULONG(__stdcall* Release)(Object*);
+
+static const char* const kVague[] = {"error: validation errors", "error: Root Signature in DXIL container is not compatible with shader."};
 
 static void release(Object* object)
 {
@@ -95,12 +97,12 @@ static void disassemble(Object* compiler, Object* result, const char* path)
     release(made);
 }
 
-static void compile(Object* compiler, const wchar_t* profile, const char* path)
+static void compile(Object* compiler, const wchar_t* root_signature, const wchar_t* profile, const char* path)
 {
     const Buffer text = readFile(path);
-    const wchar_t* arguments[] = {L"-T", profile, L"-E", L"main", L"-Vd"}; // nothing here signs modules
+    const wchar_t* arguments[] = {L"-T", profile, L"-E", L"main", L"-D", root_signature, L"-rootsig-define", L"ROOT_SIGNATURE"};
     Object* result = NULL;
-    HRESULT status = ((Compile)compiler->calls[3])(compiler, &text, arguments, 5, NULL, &kResult, (void**)&result);
+    HRESULT status = ((Compile)compiler->calls[3])(compiler, &text, arguments, sizeof(arguments) / sizeof(*arguments), NULL, &kResult, (void**)&result);
     if (SUCCEEDED(status)) {
         ((GetStatus)result->calls[3])(result, &status); // IDxcOperationResult: status, result, errors
     }
@@ -109,6 +111,10 @@ static void compile(Object* compiler, const wchar_t* profile, const char* path)
     } else {
         Object* errors = blobOf(result, 5);
         const char* message = errors ? ((GetData)errors->calls[3])(errors) : "cannot be compiled";
+        for (int i = 0; i < 2; ++i) { // the next line says what
+            const char* end = strchr(message, '\n');
+            message = end && strncmp(message, kVague[i], strlen(kVague[i])) == 0 ? end + 1 : message;
+        }
         printf("%s: %.*s\n", path, (int)strcspn(message, "\n"), message);
         if (errors) {
             release(errors);
@@ -129,10 +135,14 @@ int main(int count, char** words)
         printf("dxc: %s is no compiler\n", count > 1 ? words[1] : "nothing");
         return 2;
     }
-    for (int i = 2; i + 1 < count; i += 2) {
+    wchar_t root_signature[2048] = L"ROOT_SIGNATURE=";
+    if (count > 2) {
+        mbstowcs(root_signature + wcslen(root_signature), words[2], 2000);
+    }
+    for (int i = 3; i + 1 < count; i += 2) {
         wchar_t profile[16];
         mbstowcs(profile, words[i], 16);
-        compile(compiler, profile, words[i + 1]);
+        compile(compiler, root_signature, profile, words[i + 1]);
     }
     release(compiler);
     return 0;

@@ -5,7 +5,7 @@ without a git checkout."""
 import os
 from pathlib import Path
 
-SKIPPED_FOLDERS = {".git", ".cache", "out", "__pycache__", ".vscode", ".idea"}
+SKIPPED_FOLDERS = {".git", ".cache", "out", "__pycache__", ".vscode", ".idea", "node_modules", "dist"}
 
 
 def project_root() -> Path:

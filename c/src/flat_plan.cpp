@@ -3,6 +3,7 @@
 
 #include <gnomon/pack/caster_rows.h>
 #include <gnomon/pack/filter_rule.h>
+#include <gnomon/pack/map_attachments.h>
 #include <gnomon/plan_views.h>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -166,7 +167,20 @@ void putServes(const ViewServes& from, GnomonView& out)
     }
 }
 
-GnomonView viewOf(const Plan& plan, const View& view, const glm::dmat4& world_from_eye)
+void putAttachments(const Plan& plan, const View& view, Texts& texts, GnomonView& out)
+{
+    const pack::MapAttachments made = pack::mapAttachments(plan, view);
+    out.depth_format = texts(nameOf(made.depth));
+    out.colour_format = texts(made.colour ? nameOf(*made.colour) : "");
+    out.clear_depth = made.clear_depth;
+    out.clear_colour = made.clear_colour;
+    out.samples = made.samples;
+    out.write_depth = flag(made.write_depth);
+    out.need_fragment_shader = flag(made.needFragmentShader());
+    out.channels = made.colour ? pack::channelsOfPart(*made.colour, view.place.part) : 0;
+}
+
+GnomonView viewOf(const Plan& plan, const View& view, const glm::dmat4& world_from_eye, Texts& texts)
 {
     GnomonView out{};
     out.light = view.light;
@@ -188,6 +202,7 @@ GnomonView viewOf(const Plan& plan, const View& view, const glm::dmat4& world_fr
     out.fit_strength = view.fit.strength;
     put(view.fit.finest_texel, out.finest_texel);
     put(view.fit.coarsest_texel, out.coarsest_texel);
+    putAttachments(plan, view, texts, out);
     return out;
 }
 
@@ -211,6 +226,10 @@ GnomonPages pagesOf(const MapPages& pages, const ResolvedOptions& options, Texts
     out.fade_end_m = options.fadeEnd_m();
     out.filter = texts(nameOf(options.filter()));
     out.format = texts(nameOf(options.format()));
+    if (options.traits().integrates_light && pages.width > 0) {
+        out.blocks_size = pack::blocksExtent({pages.width, pages.height}).x;
+        out.blocks_levels = pack::blockLevels({pages.width, pages.height});
+    }
     return out;
 }
 
@@ -263,7 +282,7 @@ void flatten(const Plan& plan, FlatPlan& out)
     const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), plan.made_for.camera.eye_ws);
     out.views.clear();
     for (const View& view : plan.views) {
-        out.views.push_back(viewOf(plan, view, world_from_eye));
+        out.views.push_back(viewOf(plan, view, world_from_eye, out.texts));
     }
     out.pages.clear();
     for (std::size_t i = 0; i < plan.pages.size(); ++i) {

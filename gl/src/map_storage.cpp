@@ -2,6 +2,7 @@
 #include "map_storage.h"
 
 #include <gnomon/gl/shadow_renderer.h>
+#include <gnomon/pack/map_attachments.h>
 
 namespace gnomon::gl {
 
@@ -45,12 +46,8 @@ MapStorage mapStorage(MapFormat format)
 
 MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic)
 {
-    const MapStorage storage = mapStorage(options.format());
-    if (options.filterable()) { // moments are made of the depths
-        return {0, storage.depth, options.moments().samples, !orthographic};
-    }
-    const bool over_w = options.metric() == DepthMetricKind::z_over_w; // the rasteriser's own
-    return {storage.colour, storage.depth, 1, storage.depthOnly() && !orthographic && !over_w};
+    const pack::MapAttachments made = pack::mapAttachments(options, orthographic);
+    return {made.colour ? mapStorage(*made.colour).colour : 0, mapStorage(made.depth).depth, made.samples, made.write_depth};
 }
 
 } // namespace gnomon::gl

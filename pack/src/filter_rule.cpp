@@ -326,6 +326,11 @@ std::uint32_t blockLevels(const glm::uvec2& size_px)
     return static_cast<std::uint32_t>(std::bit_width(side - 1));
 }
 
+glm::uvec2 blocksExtent(const glm::uvec2& size_px)
+{
+    return glm::uvec2(1U << (blockLevels(size_px) - 1));
+}
+
 std::uint32_t coarsestLevel(const Tile& tile, std::uint32_t levels)
 {
     const std::uint32_t edges = tile.x | tile.y | tile.width | tile.height;

@@ -4,6 +4,7 @@
 #include <gnomon/pack/caster_rows.h>
 #include <gnomon/pack/filter_rule.h>
 #include <gnomon/pack/frame_passes.h>
+#include <gnomon/pack/map_attachments.h>
 #include <gnomon/plan_views.h>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -37,6 +38,7 @@ public:
     {
         count(name, sizeof(shown), std::memcmp(&shown, &wanted, sizeof(shown)) == 0);
     }
+    void same(const char* name, const float& shown, float wanted) { count(name, sizeof(shown), shown == wanted); }
     void same(const char* name, const char* const& shown, std::string_view wanted)
     {
         count(name, sizeof(shown), shown == wanted);
@@ -203,6 +205,18 @@ void compareServes(Members& all, const GnomonView& shown, const ViewServes& want
     }
 }
 
+void compareAttachments(Members& all, const GnomonView& shown, const pack::MapAttachments& wanted, TexelPart part)
+{
+    SAME(depth_format, nameOf(wanted.depth));
+    SAME(colour_format, wanted.colour ? nameOf(*wanted.colour) : std::string_view());
+    SAME(clear_depth, wanted.clear_depth);
+    SAME(clear_colour, wanted.clear_colour);
+    SAME(samples, wanted.samples);
+    SAME(write_depth, wanted.write_depth);
+    SAME(need_fragment_shader, wanted.needFragmentShader());
+    SAME(channels, wanted.colour ? pack::channelsOfPart(*wanted.colour, part) : 0);
+}
+
 void expectSameView(const GnomonView& shown, const Plan& plan, const View& wanted, std::uint64_t planner)
 {
     Members all("GnomonView", sizeof(shown));
@@ -218,6 +232,7 @@ void expectSameView(const GnomonView& shown, const Plan& plan, const View& wante
     SAME(fit_strength, wanted.fit.strength);
     SAME(finest_texel, wanted.fit.finest_texel);
     SAME(coarsest_texel, wanted.fit.coarsest_texel);
+    compareAttachments(all, shown, pack::mapAttachments(plan, wanted), wanted.place.part);
 }
 
 void expectSamePages(const GnomonPages& shown, const MapPages& wanted, const ResolvedOptions& options)
@@ -240,6 +255,9 @@ void expectSamePages(const GnomonPages& shown, const MapPages& wanted, const Res
     SAME(fade_end_m, options.fadeEnd_m());
     SAME(filter, nameOf(options.filter()));
     SAME(format, nameOf(options.format()));
+    const bool has_blocks = options.traits().integrates_light && wanted.width > 0;
+    SAME(blocks_size, has_blocks ? pack::blocksExtent({wanted.width, wanted.height}).x : 0);
+    SAME(blocks_levels, has_blocks ? pack::blockLevels({wanted.width, wanted.height}) : 0);
 }
 
 void expectSameLists(const GnomonPlan& shown, const Plan& wanted, std::size_t passes)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Is passes.json true? usage: test_kit.py KIT LAYOUTS, where LAYOUTS is the program kit_layouts.
 
-It is held to four others: to the files of each dialect, to what spirv-cross reads from the library's own modules, to what
-vulkan/ binds, and to pack's list of a frame's passes. Each of these is also handed a kit with a fault, and must find it.
+It is held to five others: to the files of each dialect, to what spirv-cross reads from the library's own modules, to what
+vulkan/ binds, to pack's list of a frame's passes, and to the root signature of docs/direct3d.md. Each of these is also handed a kit with a fault, and must find it.
 """
 
 import copy
@@ -170,6 +170,24 @@ def faults_of_frame(kit: dict, folder: Path) -> list[str]:
     return found + [f"no pass runs {one['name']}" for one in kit["modules"] if one["name"] not in run]
 
 
+def signature_places() -> tuple[set[str], int]:
+    """The registers that the root signature of docs/direct3d.md has, each "t3 0", and the bytes of its push data."""
+    text = read(ROOT / "docs/direct3d.md").partition("```hlsl")[2].partition("```")[0]
+    found = set()
+    for letter, first, rest in re.findall(r"\b([btus])(\d+)([^()]*)\)", text.replace("RootConstants(", "")):
+        space, count = re.search(r"space = (\d+)", rest), re.search(r"numDescriptors = (\d+)", rest)
+        found |= {f"{letter}{int(first) + i} {space[1] if space else 0}" for i in range(int(count[1]) if count else 1)}
+    return found, 4 * max(int(one) for one in re.findall(r"num32BitConstants = (\d+)", text))
+
+
+def faults_of_signature(kit: dict, folder: Path) -> list[str]:
+    has, pushed = signature_places()
+    found = [f"{one['name']}: the root signature has no {lost}" for one in kit["modules"]
+             for lost in sorted(said_places("hlsl", one["bindings"]["hlsl"]) - has)]
+    return found + [f"{module['name']} has {one['size']} bytes of push data, the root signature {pushed}" for module in kit["modules"]
+                    for one in module["inputs"] if one["kind"] == "push" and one["size"] > pushed]
+
+
 def module(kit: dict, name: str) -> dict:
     return next(one for one in kit["modules"] if one["name"] == name)
 
@@ -231,6 +249,14 @@ class Kit(unittest.TestCase):
         def remove(kit):
             kit["modules"].remove(module(kit, "alternate.frag"))
         self.hold(faults_of_vulkan, remove, "alternate.frag is not in the kit")
+
+    def test_the_root_signature_has_all_registers(self):
+        def move(kit):
+            module(kit, "mask_pcf.frag")["bindings"]["hlsl"][2]["register"] = "t13"
+        self.hold(faults_of_signature, move, "the root signature has no t13 0")
+        def lengthen(kit):
+            module(kit, "volume.vert")["inputs"][-1]["size"] = 132
+        self.hold(faults_of_signature, lengthen, "volume.vert has 132 bytes")
 
     def test_the_frame_is_that_of_pack(self):
         def swap(kit):

@@ -43,8 +43,10 @@ void DepthBlocks::setMaps(const Image& maps)
     const ImageInfo& of_maps = maps.info();
     ImageInfo info;
     info.format = VK_FORMAT_R32_UINT;
-    info.levels = pack::blockLevels({of_maps.extent.width, of_maps.extent.height});
-    info.extent = {1U << (info.levels - 1), 1U << (info.levels - 1)};
+    const glm::uvec2 size_px(of_maps.extent.width, of_maps.extent.height);
+    const glm::uvec2 extent = pack::blocksExtent(size_px);
+    info.levels = pack::blockLevels(size_px);
+    info.extent = {extent.x, extent.y};
     info.layers = of_maps.layers;
     info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     info.purpose = "blocks of shadow maps";

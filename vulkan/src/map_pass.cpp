@@ -7,6 +7,7 @@
 #include "draw_view.h"
 #include "timed.h"
 
+#include <gnomon/pack/map_attachments.h>
 #include <gnomon/plan_views.h>
 
 #include <algorithm>
@@ -39,7 +40,8 @@ bool mayKeepStill(const ResolvedOptions& options)
 
 DepthMaps::DepthMaps(Device& device, const MapStorage& storage, const ResolvedOptions& options, VkPipelineCache cache,
                      const Classics* classics)
-    : device_(device), storage_(storage), clear_(options.traits().ids ? 0.0F : 1.0F), cache_(cache), classics_(classics)
+    : device_(device), storage_(storage), clear_(pack::mapAttachments(options, true).clear_colour), cache_(cache),
+      classics_(classics)
 {
     if (options.traits().integrates_light) {
         step_ = std::make_unique<DepthBlocks>(device, cache);

@@ -2,6 +2,7 @@
 #include "map_storage.h"
 
 #include <gnomon/error.h>
+#include <gnomon/pack/map_attachments.h>
 
 #include <algorithm>
 #include <cassert>
@@ -41,15 +42,9 @@ const MapStorage& mapStorage(MapFormat format)
 
 MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic)
 {
-    const MapStorage& storage = mapStorage(options.format());
-    if (options.filterable()) { // moments are made of the depths
-        return {VK_FORMAT_UNDEFINED, storage.depth, static_cast<VkSampleCountFlagBits>(options.moments().samples),
-                !orthographic};
-    }
-    const bool paraboloid = options.technique().partition == Partition::paraboloid; // the rasteriser's own says nothing
-    const bool over_w = options.metric() == DepthMetricKind::z_over_w;              // the rasteriser's own
-    return {storage.colour, storage.depth, VK_SAMPLE_COUNT_1_BIT,
-            paraboloid || (storage.depthOnly() && !orthographic && !over_w)};
+    const pack::MapAttachments made = pack::mapAttachments(options, orthographic);
+    return {made.colour ? mapStorage(*made.colour).colour : VK_FORMAT_UNDEFINED, mapStorage(made.depth).depth,
+            static_cast<VkSampleCountFlagBits>(made.samples), made.write_depth};
 }
 
 ClassicFormats classicFormats(const ResolvedOptions& options)
@@ -72,19 +67,14 @@ float depthRounding(VkFormat depth)
 
 VkColorComponentFlags colourMaskOf(VkFormat colour, TexelPart part)
 {
-    constexpr VkColorComponentFlags kFirst = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT;
-    constexpr VkColorComponentFlags kSecond = VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    static_assert(VK_COLOR_COMPONENT_R_BIT == 1 && VK_COLOR_COMPONENT_A_BIT == 8);
     if (colour == VK_FORMAT_UNDEFINED) {
         return 0;
     }
-    const bool is_first = part == TexelPart::first;
-    if (part != TexelPart::whole && (colour == VK_FORMAT_R16G16_UNORM || colour == VK_FORMAT_R16G16_SFLOAT)) {
-        return is_first ? VK_COLOR_COMPONENT_R_BIT : VK_COLOR_COMPONENT_G_BIT;
-    }
-    if (part != TexelPart::whole && colour == VK_FORMAT_R8G8B8A8_UNORM) {
-        return is_first ? kFirst : kSecond;
-    }
-    return kFirst | kSecond;
+    const auto* found = std::find_if(std::begin(kStorages), std::end(kStorages),
+                                     [&](const MapStorage& storage) { return storage.colour == colour; });
+    assert(found != std::end(kStorages));
+    return pack::channelsOfPart(found->format, part);
 }
 
 void requireAveraging(VkFormatFeatureFlags features, Filter filter, MapFormat format, const char* what)

@@ -338,6 +338,16 @@ typedef struct GnomonView {
     double fit_strength;      // 1: no warp
     double finest_texel[2];   // sides of a warped map's finest texel, as texel_xy_m
     double coarsest_texel[2]; // sides of its coarsest texel
+
+    // What its casters are drawn to (pack::MapAttachments).
+    const char* depth_format;      // of the depth attachment: "d32f", "d24" or "d16"
+    const char* colour_format;     // of the colour attachment; empty: none
+    float clear_depth;             // before casters are drawn
+    float clear_colour;            // the same, of every channel
+    uint32_t samples;              // of both attachments
+    uint32_t write_depth;          // a fragment shader writes gnomonCasterDepth() as depth
+    uint32_t need_fragment_shader; // casters without holes need one: for depth, or for the colour attachment
+    uint32_t channels;             // channels of the colour attachment that the map has: bit i for channel i
 } GnomonView;
 
 /// The images that hold the maps of one of the planner's options (MapPages), and how they are read. They have exactly
@@ -360,6 +370,8 @@ typedef struct GnomonPages {
     double fade_end_m;       // they are lit from here on; 0: nothing fades
     const char* filter;      // the filter that is used, never auto: "raymarch"
     const char* format;      // the format of a texel: "d32f"
+    uint32_t blocks_size;    // filters pcss and raymarch: texels on a side of the image of blocks; else 0
+    uint32_t blocks_levels;  // mip levels of that image
 } GnomonPages;
 
 // ---- Further needs of a backend (gnomon/pack)

@@ -5,26 +5,13 @@
 #include "commands/map_commands.h"
 
 #include <gnomon/pack/filter_rule.h>
+#include <gnomon/pack/map_attachments.h>
 #include <gnomon/plan_views.h>
 
 #include <algorithm>
 
 namespace gnomon::pack {
 namespace {
-
-/// The colour channels of a texel that hold this part of it: bit i for channel i.
-std::uint32_t channelsOf(MapFormat format, TexelPart part)
-{
-    constexpr std::uint32_t kAll = 0xF;
-    if (part == TexelPart::whole) {
-        return kAll;
-    }
-    const bool is_first = part == TexelPart::first;
-    if (format == MapFormat::rg16 || format == MapFormat::rg16f) {
-        return is_first ? 0x1 : 0x2;
-    }
-    return format != MapFormat::rgba8 ? kAll : is_first ? 0x3 : 0xC;
-}
 
 class DepthMaps final : public MapCommands {
 public:
@@ -72,8 +59,8 @@ MapCommands::Prepared DepthMaps::prepare(const Plan& plan)
         }
     }
     if (has_blocks_ && prepared.changed) {
-        const std::uint32_t levels = blockLevels(maps.size_px);
-        recording_.make(image(ImageName::blocks), {{}, glm::uvec2(1U << (levels - 1)), maps.layers, levels});
+        recording_.make(image(ImageName::blocks),
+                        {{}, blocksExtent(maps.size_px), maps.layers, blockLevels(maps.size_px)});
         are_new_ = true;
     }
     return prepared;
@@ -140,7 +127,7 @@ void DepthMaps::drawMap(const MapJob& job, std::uint32_t index)
     const bool restores = view.contents.kept_layer != kNoIndex && view.place.part == TexelPart::whole;
     const Tile area = redrawnPart(view, job.of(index).whole || !restores);
     CommandTarget target = targetOf(view.place.tile, area);
-    target.channels = channelsOf(format_, view.place.part);
+    target.channels = channelsOfPart(format_, view.place.part);
     if (restores) {
         restore(view, area);
     } else {
@@ -209,11 +196,6 @@ void DepthMaps::draw(const MapJob& job)
 ViewWork MapJob::of(std::uint32_t view) const
 {
     return optionsIndexOf(plan, plan.views[view]) == options ? work[view] : ViewWork{};
-}
-
-bool isDepth(MapFormat format)
-{
-    return format == MapFormat::d16 || format == MapFormat::d24 || format == MapFormat::d32f;
 }
 
 MapFormat depthFormatOf(MapFormat format)

@@ -46,8 +46,6 @@ public:
 [[nodiscard]] std::unique_ptr<MapCommands> makeMomentMaps(Recording& recording, const RecorderTraits& traits,
                                                           const ResolvedOptions& options, std::uint32_t index);
 
-/// Is it a depth format?
-[[nodiscard]] bool isDepth(MapFormat format);
 /// The format of the depths that such maps are drawn with.
 [[nodiscard]] MapFormat depthFormatOf(MapFormat format);
 

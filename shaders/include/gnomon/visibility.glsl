@@ -41,7 +41,7 @@
 
 // The share of light `light` of the frame, 0 .. 1 for each colour, that arrives at a point of a surface. `point`:
 // relative to the camera's eye, metres, in the world's axes; `normal`: the unit geometric normal there; `pixel`:
-// gl_FragCoord.xy. Returns 0 for a surface that faces away from the light, and 1 for a light without a map. Alpha is
+// gl_FragCoord.xy, whose rows count from the one where Camera::clip_from_world has y = -1. Returns 0 for a surface that faces away from the light, and 1 for a light without a map. Alpha is
 // the luminance (ITU-R BT.709). Without GNOMON_TINTS all four are the same.
 vec4 gnomonLightColour(uint light, vec3 point, vec3 normal, vec2 pixel)
 {

@@ -72,8 +72,12 @@ GNOMON_API void fillRule(const ResolvedOptions& options, const DrawPrecision& pr
 /// The coarsest mip level whose texels lie in one tile, each over whole texels of the next finer level. `levels`: of
 /// the map's image, at least 1.
 [[nodiscard]] GNOMON_API std::uint32_t coarsestLevel(const Tile& tile, std::uint32_t levels);
-/// Levels of the blocks of maps of this size (gnomon/shared/map_blocks.h), at least 1.
+/// Mip levels of the image of blocks beside maps of this size (gnomon/shared/map_blocks.h), at least 1. Filters with
+/// FilterTraits::integrates_light (pcss, raymarch) have one: 32-bit unsigned integers, with the maps' layers. A texel
+/// of level i is a block of 2^(i + 1) texels on a side.
 [[nodiscard]] GNOMON_API std::uint32_t blockLevels(const glm::uvec2& size_px);
+/// The size of that image, texels: a square whose side is a power of two, so that each level halves it without a rest.
+[[nodiscard]] GNOMON_API glm::uvec2 blocksExtent(const glm::uvec2& size_px);
 
 /// The depth that a texel of a map stands for, to be looked at: in [0, 1] of the map's metric. For a filterable map it
 /// is the mean of the averaged depths. For esm and evsm (in the warp of c+) it is the depth whose exponential is the
