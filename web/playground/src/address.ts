@@ -3,7 +3,7 @@
 // Whatever an address has, a state comes out of it: values that make no sense are left at their defaults.
 import { clamp, lengthOf, subtract, type Camera, type Vec3 } from './vectors.ts';
 
-export const kViews = ['shaded', 'mask', 'difference'] as const;
+export const kViews = ['shaded', 'mask', 'difference', 'truth'] as const;
 export type View = (typeof kViews)[number];
 export const kMapSizes = [0, 256, 512, 1024, 2048, 4096];
 

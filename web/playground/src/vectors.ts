@@ -43,6 +43,38 @@ export function clipFromWorld(camera: Camera, aspect: number, near: number): Flo
   return m;
 }
 
+/** The inverse of a matrix that has one, by Gauss and Jordan. */
+export function inverseOfMatrix(m: Float64Array): Float64Array {
+  const a = Float64Array.from(m);
+  const out = new Float64Array(16);
+  for (let i = 0; i < 4; ++i) {
+    out[5 * i] = 1;
+  }
+  for (let column = 0; column < 4; ++column) {
+    let pivot = column;
+    for (let row = column + 1; row < 4; ++row) {
+      pivot = Math.abs(a[4 * row + column]) > Math.abs(a[4 * pivot + column]) ? row : pivot;
+    }
+    for (let k = 0; k < 4; ++k) {
+      [a[4 * column + k], a[4 * pivot + k]] = [a[4 * pivot + k], a[4 * column + k]];
+      [out[4 * column + k], out[4 * pivot + k]] = [out[4 * pivot + k], out[4 * column + k]];
+    }
+    const by = a[5 * column];
+    for (let k = 0; k < 4; ++k) {
+      a[4 * column + k] /= by;
+      out[4 * column + k] /= by;
+    }
+    for (let row = 0; row < 4; ++row) {
+      const times = row === column ? 0 : a[4 * row + column];
+      for (let k = 0; k < 4; ++k) {
+        a[4 * row + k] -= times * a[4 * column + k];
+        out[4 * row + k] -= times * out[4 * column + k];
+      }
+    }
+  }
+  return out;
+}
+
 /** The way light travels, from the sun's azimuth (degrees from -z, clockwise from above) and height (degrees). */
 export function sunDirection(azimuth: number, height: number): Vec3 {
   const a = radians(azimuth);
