@@ -186,7 +186,6 @@ class Page {
     }
     this.renderer.setTruth(this.truth.visibility);
     this.say(this.renderer.draw(state, sight, anew));
-    element('waiting').textContent = '';
     if (!this.mask) {
       void this.readMask();
     }
@@ -253,7 +252,9 @@ async function main(): Promise<void> {
   void found.device.lost.then((info) => info.reason !== 'destroyed' && showWithout('The browser has lost the graphics device. Reload the page to try again.'));
   try {
     const choices = (await (await fetch('choices.json')).json()) as Choice[];
-    const renderer = await Renderer.make(found.device, element<HTMLCanvasElement>('canvas'));
+    const renderer = await Renderer.make(found.device, element<HTMLCanvasElement>('canvas'), found.software, () => {
+      element('waiting').textContent = '';
+    });
     await new Page(renderer, choices, found.software).start();
   } catch (error) {
     fail(error);

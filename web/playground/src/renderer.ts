@@ -4,6 +4,7 @@ import { kViews, type PageState } from './address.ts';
 import shadeText from './shade.wgsl';
 import { Shadows } from './shadows.ts';
 import smoothText from './smooth.wgsl';
+import { readTexels, Screen } from './screen.ts';
 import { SceneOnGpu } from './scene_on_gpu.ts';
 import { clipFromWorld, inverseOfMatrix, radians, scale, type Camera, type Vec3 } from './vectors.ts';
 import type { World } from './world.ts';
@@ -27,7 +28,6 @@ interface Targets {
 }
 
 export class Renderer {
-  private readonly context: GPUCanvasContext;
   private readonly frame: GPUBuffer;
   private readonly sampler: GPUSampler;
   private readonly shading: GPURenderPipeline;
@@ -37,24 +37,18 @@ export class Renderer {
   private scene: SceneOnGpu | undefined;
   private targets: Targets | undefined;
 
-  /** Throws where the device cannot make what it needs. */
-  static async make(device: GPUDevice, canvas: HTMLCanvasElement): Promise<Renderer> {
-    return new Renderer(device, canvas, await Shadows.make(device));
+  /** `shown` is called when a picture is on the canvas. Throws an Error where the device cannot make what it needs. */
+  static async make(device: GPUDevice, canvas: HTMLCanvasElement, software: boolean, shown: () => void): Promise<Renderer> {
+    return new Renderer(device, canvas, await Shadows.make(device), new Screen(device, canvas, software, shown));
   }
 
-  private constructor(readonly device: GPUDevice, private readonly canvas: HTMLCanvasElement, readonly shadows: Shadows) {
-    const context = canvas.getContext('webgpu');
-    if (!context) {
-      throw new Error('The canvas has no WebGPU context');
-    }
-    this.context = context;
-    const format = navigator.gpu.getPreferredCanvasFormat();
-    context.configure({ device, format, alphaMode: 'opaque' });
+  private constructor(private readonly device: GPUDevice, private readonly canvas: HTMLCanvasElement, readonly shadows: Shadows,
+                      private readonly screen: Screen) {
     this.frame = device.createBuffer({ size: 4 * kFrameFloats, usage: GPUBufferUsage.UNIFORM | GPUBufferUsage.COPY_DST });
     this.sampler = device.createSampler({ magFilter: 'linear', minFilter: 'linear', mipmapFilter: 'linear', addressModeU: 'repeat', addressModeV: 'repeat' });
     this.shading = this.screenPipeline(shadeText, 'shade', kFormats.lit);
-    this.smoothing = this.screenPipeline(smoothText, 'smoothed', format);
-    this.copying = this.screenPipeline(smoothText, 'copied', format);
+    this.smoothing = this.screenPipeline(smoothText, 'smoothed', screen.format);
+    this.copying = this.screenPipeline(smoothText, 'copied', screen.format);
     this.reading = this.screenPipeline(smoothText, 'first', 'r8unorm');
   }
 
@@ -141,8 +135,9 @@ export class Renderer {
     ];
     this.fill(encoder, this.shading, targets.lit.createView(), resources);
     const last = state.view === 'shaded' ? this.smoothing : this.copying;
-    this.fill(encoder, last, this.context.getCurrentTexture().createView(), [targets.lit.createView(), this.sampler]);
+    this.fill(encoder, last, this.screen.view(), [targets.lit.createView(), this.sampler]);
     this.device.queue.submit([encoder.finish()]);
+    this.screen.show();
     if (anew) {
       this.shadows.submitted();
     }
@@ -152,22 +147,12 @@ export class Renderer {
   /** The mask of the last frame, a byte for each pixel. */
   async readMask(): Promise<Uint8Array> {
     const { width, height } = this.canvas;
-    const size = [width, height];
     const usage = GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC;
-    const copy = this.device.createTexture({ size, format: 'r8unorm', usage });
-    const bytesPerRow = Math.ceil(width / 256) * 256;
-    const buffer = this.device.createBuffer({ size: bytesPerRow * height, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
+    const copy = this.device.createTexture({ size: [width, height], format: 'r8unorm', usage });
     const encoder = this.device.createCommandEncoder();
     this.fill(encoder, this.reading, copy.createView(), [this.shadows.mask(width, height)]);
-    encoder.copyTextureToBuffer({ texture: copy }, { buffer, bytesPerRow }, size);
     this.device.queue.submit([encoder.finish()]);
-    await buffer.mapAsync(GPUMapMode.READ);
-    const rows = new Uint8Array(buffer.getMappedRange());
-    const out = new Uint8Array(width * height);
-    for (let y = 0; y < height; ++y) {
-      out.set(rows.subarray(y * bytesPerRow, y * bytesPerRow + width), y * width);
-    }
-    buffer.destroy();
+    const out = await readTexels(this.device, copy, 1);
     copy.destroy();
     return out;
   }
