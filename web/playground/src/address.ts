@@ -18,8 +18,10 @@ export interface PageState {
   map: number;
   /** Azimuth and height of the sun, degrees; nothing: the world's own. */
   sun: [number, number] | undefined;
-  /** Nothing: the world's own. */
-  camera: Camera | undefined;
+  /** A camera, or the name of one of the world's; nothing: the first of these. */
+  camera: Camera | string | undefined;
+  /** Vertical field of view of a camera that is named, degrees; nothing: its own. */
+  fov: number | undefined;
   view: View;
   /** The share of the picture's width where truth begins, 0 to 1. */
   split: number;
@@ -28,7 +30,7 @@ export interface PageState {
 }
 
 export const kDefaults: PageState = {
-  world: 'sundial', technique: 'auto', light: 0.53, map: 0, sun: undefined, camera: undefined, view: 'shaded', split: 0.5, options: {},
+  world: 'sundial', technique: 'auto', light: 0.53, map: 0, sun: undefined, camera: undefined, fov: undefined, view: 'shaded', split: 0.5, options: {},
 };
 
 const kFarthest_m = 1e4;
@@ -82,7 +84,9 @@ export function readAddress(hash: string, worlds: readonly string[]): PageState 
     } else if (key === 'sun') {
       state.sun = sunOf(text);
     } else if (key === 'camera') {
-      state.camera = cameraOf(text);
+      state.camera = /^[a-z][a-z0-9_-]*$/.test(text) ? text : cameraOf(text);
+    } else if (key === 'fov' && Number.isFinite(number)) {
+      state.fov = clamp(number, 5, 100);
     } else if (key === 'view' && (kViews as readonly string[]).includes(text)) {
       state.view = text as View;
     } else if (key === 'split' && Number.isFinite(number)) {
@@ -102,9 +106,15 @@ export function writeAddress(state: PageState): string {
   if (state.sun) {
     items.push(`sun=${state.sun.map((one) => short(one, 1)).join(',')}`);
   }
-  if (state.camera) {
+  if (typeof state.camera === 'object') {
     const { eye, target, fov } = state.camera;
     items.push(`camera=${[...eye, ...target, fov].map((one) => short(one, 2)).join(',')}`);
+  }
+  if (typeof state.camera === 'string') {
+    items.push(`camera=${state.camera}`);
+  }
+  if (state.fov !== undefined) {
+    items.push(`fov=${short(state.fov, 2)}`);
   }
   items.push(`view=${state.view}`, `split=${short(state.split, 3)}`);
   for (const [key, value] of Object.entries(state.options)) {

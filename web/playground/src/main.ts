@@ -15,6 +15,12 @@ const kLeastHeight_deg = 3;
 const kSoftware = { width: 640, height: 360 };
 const kLargest = { width: 1280, height: 720 };
 
+/** A camera of a world by its name, or the first. */
+function cameraOf(world: World, name: string | undefined, fov: number | undefined): Camera {
+  const view = world.views.find((one) => one.name === name) ?? world.views[0];
+  return { eye: view.eye, target: view.target, fov: fov ?? degrees(view.fov_y_rad) };
+}
+
 class Page {
   private state: PageState;
   private world: World | undefined;
@@ -46,7 +52,7 @@ class Page {
   }
 
   private listen(): void {
-    const camera = (next: (camera: Camera) => Camera): void => void (this.state.camera && this.change({ camera: next(this.state.camera) }));
+    const camera = (next: (camera: Camera) => Camera): void => void (this.camera && this.change({ camera: next(this.camera) }));
     const limits = (): [number, number] => [0.5, 4 * (this.renderer.radius || 1)];
     listen(this.canvas, {
       turn: (across, upwards) => camera((one) => orbit(one, across, upwards)),
@@ -82,9 +88,14 @@ class Page {
     new ResizeObserver(() => this.resize()).observe(element('picture'));
   }
 
+  /** The camera, once there is a world. */
+  private get camera(): Camera | undefined {
+    return typeof this.state.camera === 'object' ? this.state.camera : undefined;
+  }
+
   /** The camera's heading: degrees from -z, clockwise from above. */
   private get heading(): number {
-    const [x, , z] = this.state.camera ? subtract(this.state.camera.target, this.state.camera.eye) : [0, 0, -1];
+    const [x, , z] = this.camera ? subtract(this.camera.target, this.camera.eye) : [0, 0, -1];
     return degrees(Math.atan2(x, -z));
   }
 
@@ -125,8 +136,10 @@ class Page {
   /** Camera and sun are the world's own where the address has none. */
   private complete(): void {
     if (this.world) {
-      const view = this.world.views[0];
-      this.state.camera ??= { eye: view.eye, target: view.target, fov: degrees(view.fov_y_rad) };
+      if (!this.camera) {
+        this.state.camera = cameraOf(this.world, this.state.camera as string | undefined, this.state.fov);
+        this.state.fov = undefined;
+      }
       this.state.sun ??= sunPlace(this.world.sun.direction);
     }
   }
@@ -148,8 +161,7 @@ class Page {
     this.truth.setWorld(bytes);
     this.complete();
     this.controls.setCameras(this.world.views.map((view) => view.name), (index) => {
-      const view = this.world!.views[index];
-      this.change({ camera: { eye: view.eye, target: view.target, fov: degrees(view.fov_y_rad) } });
+      this.change({ camera: this.world!.views[index].name });
     });
     this.resize();
     this.redraw(true);
@@ -170,12 +182,12 @@ class Page {
 
   private draw(): void {
     this.drawing = false;
-    const { world, state } = this;
-    if (!world || !state.camera || !state.sun) {
+    const { world, state, camera } = this;
+    if (!world || !camera || !state.sun) {
       return;
     }
     const { width, height } = this.canvas;
-    const sight = { camera: state.camera, sun: sunDirection(...state.sun) };
+    const sight = { camera, sun: sunDirection(...state.sun) };
     const anew = this.anew;
     if (anew) {
       this.anew = false;
@@ -219,8 +231,8 @@ class Page {
 
   /** Shows the state in settings, on the picture and in the address. */
   private show(): void {
-    const { state, world } = this;
-    const at = world?.views.findIndex((view) => state.camera && lengthOf(subtract(view.eye, state.camera.eye)) < 0.01) ?? -1;
+    const { state, world, camera } = this;
+    const at = world?.views.findIndex((view) => camera && lengthOf(subtract(view.eye, camera.eye)) < 0.01) ?? -1;
     this.controls.show(state, at + 1);
     const divider = element('divider');
     const divided = state.view === 'shaded' || state.view === 'mask';
