@@ -3,7 +3,7 @@
 //
 // usage: node build.mjs WRITE_WORLD FOLDER
 //
-// WRITE_WORLD: the program of data/write_world.cpp. `make playground` builds it and calls this.
+// WRITE_WORLD: the program of data/write_world.cpp. The npm package is taken from web/dist. `make playground` builds both and calls this.
 import { execFileSync } from 'node:child_process';
 import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -12,10 +12,11 @@ import { gzipSync } from 'node:zlib';
 import { build } from 'esbuild';
 
 // The times of day at which the worlds look best, seconds of their clocks.
-const kWorlds = { sundial: 560, rts: 0, canopies: 0 };
+const kWorlds = { sundial: 420, rts: 0, canopies: 0 };
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, '../..');
+const packaged = join(root, 'web/dist');
 const [writeWorld, folder] = process.argv.slice(2);
 if (!folder) {
   console.error('usage: node build.mjs WRITE_WORLD FOLDER');
@@ -36,8 +37,11 @@ for (const [name, time] of Object.entries(kWorlds)) {
 execFileSync(writeWorld, ['--choices', join(folder, 'choices.json')]);
 await build({
   entryPoints: ['main.ts', 'truth_worker.ts', 'style.css'].map((name) => join(here, 'src', name)), outdir: folder,
-  bundle: true, minify: true, format: 'esm', target: 'es2022', loader: { '.wgsl': 'text' }, logLevel: 'warning',
+  alias: { 'gnomon-shadows': join(packaged, 'index.js') }, bundle: true, minify: true, format: 'esm', target: 'es2022', loader: { '.wgsl': 'text' }, logLevel: 'warning',
 });
+for (const name of ['gnomon.wasm', 'shaders.json.gz']) {
+  copyFileSync(join(packaged, name), join(folder, name));
+}
 copyFileSync(join(here, 'index.html'), join(folder, 'index.html'));
 copyFileSync(join(root, 'site/favicon.svg'), join(folder, 'favicon.svg'));
 const shown = readFileSync(join(here, 'src/without.ts'), 'utf8').matchAll(/\['([a-z-]+)', '/g);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page's settings: what they show, and what they change of the state.
+import type { Option } from 'gnomon-shadows';
 import { kMapSizes, kViews, partsOf, type PageState } from './address.ts';
 
 /** A row of the library's table of choices. */
@@ -7,18 +8,6 @@ export interface Choice {
   choice: string;
   name: string;
   summary: string;
-}
-
-/** An option of the library, as its own table describes it. */
-export interface Option {
-  key: string;
-  doc: string;
-  unit: string;
-  default_value: string;
-  /** The names that it takes; none: a number. */
-  choices: string[];
-  min: number;
-  max: number;
 }
 
 // The techniques that visitors are offered; any other may stand in the address.
@@ -153,11 +142,11 @@ export class Controls {
     const box = document.createElement('div');
     box.className = 'field';
     const id = `option-${option.key}`;
-    const field = document.createElement(option.choices.length > 0 ? 'select' : 'input');
+    const field = document.createElement(option.choices ? 'select' : 'input');
     if (field instanceof HTMLSelectElement) {
-      fillSelect(field, ['', ...option.choices], (name) => name || `default (${option.default_value || 'by the filter'})`);
+      fillSelect(field, ['', ...option.choices.split(' ')], (name) => name || `default (${option.defaultValue || 'by the filter'})`);
     } else {
-      Object.assign(field, { type: 'number', min: String(option.min), max: String(option.max), step: 'any', placeholder: option.default_value || 'by the filter' });
+      Object.assign(field, { type: 'number', min: String(option.min), max: String(option.max), step: 'any', placeholder: option.defaultValue || 'by the filter' });
     }
     field.id = id;
     field.dataset.key = option.key;

@@ -7,7 +7,6 @@ import { Renderer } from './renderer.ts';
 import { Truth } from './truth.ts';
 import { clamp, degrees, dolly, lengthOf, orbit, pan, subtract, sunDirection, sunPlace, type Camera } from './vectors.ts';
 import { fetchWorld, readWorld, type World } from './world.ts';
-import { optionsOf } from './shadows.ts';
 import { openDevice, showWithout } from './without.ts';
 
 const kWorlds = ['sundial', 'rts', 'canopies'];
@@ -36,7 +35,7 @@ class Page {
   constructor(private readonly renderer: Renderer, private readonly choices: Choice[], private readonly software: boolean) {
     this.state = this.stateOf(location.hash);
     this.truth = new Truth(() => this.redraw(false));
-    this.controls = new Controls(choices, optionsOf(renderer.shadows), kWorlds, (parts) => this.change(parts), () => this.state);
+    this.controls = new Controls(choices, renderer.shadows.options(), kWorlds, (parts) => this.change(parts), () => this.state);
     this.listen();
   }
 
@@ -264,7 +263,7 @@ async function main(): Promise<void> {
   void found.device.lost.then((info) => info.reason !== 'destroyed' && showWithout('The browser has lost the graphics device. Reload the page to try again.'));
   try {
     const choices = (await (await fetch('choices.json')).json()) as Choice[];
-    const renderer = await Renderer.make(found.device, element<HTMLCanvasElement>('canvas'), found.software, () => {
+    const renderer = await Renderer.make(found.device, element<HTMLCanvasElement>('canvas'), choices, found.software, () => {
       element('waiting').textContent = '';
     });
     await new Page(renderer, choices, found.software).start();

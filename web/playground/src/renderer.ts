@@ -4,6 +4,7 @@ import { kViews, type PageState } from './address.ts';
 import shadeText from './shade.wgsl';
 import { Shadows } from './shadows.ts';
 import smoothText from './smooth.wgsl';
+import type { Choice } from './controls.ts';
 import { readTexels, Screen } from './screen.ts';
 import { SceneOnGpu } from './scene_on_gpu.ts';
 import { clipFromWorld, inverseOfMatrix, radians, scale, type Camera, type Vec3 } from './vectors.ts';
@@ -16,12 +17,14 @@ export interface Sight {
 }
 
 export const kNear_m = 0.1;
+const kClearest_m = 500; // haze begins to hide things no nearer
 const kFrameFloats = 60;
-const kFormats = { albedo: 'rgba8unorm', normal: 'rgb10a2unorm', depth: 'depth32float', lit: 'rgba8unorm' } as const;
+const kFormats = { albedo: 'rgba8unorm', normal: 'rgb10a2unorm', geometric: 'rg16float', depth: 'depth32float', lit: 'rgba8unorm' } as const;
 
 interface Targets {
   albedo: GPUTexture;
   normal: GPUTexture;
+  geometric: GPUTexture;
   depth: GPUTexture;
   lit: GPUTexture;
   truth: GPUTexture;
@@ -34,12 +37,13 @@ export class Renderer {
   private readonly smoothing: GPURenderPipeline;
   private readonly copying: GPURenderPipeline;
   private readonly reading: GPURenderPipeline;
+  private said = '';
   private scene: SceneOnGpu | undefined;
   private targets: Targets | undefined;
 
   /** `shown` is called when a picture is on the canvas. Throws an Error where the device cannot make what it needs. */
-  static async make(device: GPUDevice, canvas: HTMLCanvasElement, software: boolean, shown: () => void): Promise<Renderer> {
-    return new Renderer(device, canvas, await Shadows.make(device), new Screen(device, canvas, software, shown));
+  static async make(device: GPUDevice, canvas: HTMLCanvasElement, choices: readonly Choice[], software: boolean, shown: () => void): Promise<Renderer> {
+    return new Renderer(device, canvas, await Shadows.make(device, choices, software), new Screen(device, canvas, software, shown));
   }
 
   private constructor(private readonly device: GPUDevice, private readonly canvas: HTMLCanvasElement, readonly shadows: Shadows,
@@ -62,7 +66,7 @@ export class Renderer {
 
   setWorld(world: World): void {
     this.scene?.destroy();
-    this.scene = new SceneOnGpu(this.device, world, this.frame, this.sampler, [kFormats.albedo, kFormats.normal], kFormats.depth);
+    this.scene = new SceneOnGpu(this.device, world, this.frame, this.sampler, [kFormats.albedo, kFormats.normal, kFormats.geometric], kFormats.depth);
     this.shadows.setScene(this.scene);
   }
 
@@ -74,7 +78,7 @@ export class Renderer {
     const usage = GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.TEXTURE_BINDING;
     const make = (format: GPUTextureFormat, more = 0): GPUTexture => this.device.createTexture({ size: [width, height], format, usage: usage | more });
     this.targets = {
-      albedo: make(kFormats.albedo), normal: make(kFormats.normal), depth: make(kFormats.depth), lit: make(kFormats.lit),
+      albedo: make(kFormats.albedo), normal: make(kFormats.normal), geometric: make(kFormats.geometric), depth: make(kFormats.depth), lit: make(kFormats.lit),
       truth: make('r8unorm', GPUTextureUsage.COPY_DST),
     };
     return this.targets;
@@ -94,7 +98,7 @@ export class Renderer {
     const data = new Float32Array(kFrameFloats);
     data.set(clip);
     data.set(inverseOfMatrix(clip), 16);
-    data.set([...sight.camera.eye, 9 * this.radius], 32);
+    data.set([...sight.camera.eye, Math.max(kClearest_m, 9 * this.radius)], 32);
     data.set([...scale(sight.sun, -1), Math.cos(Math.max(radians(state.light) / 2, 0.004))], 36);
     data.set([...world.sun.colour, 1.15 * world.sky.exposure], 40);
     data.set([...world.sky.zenith, 2.2 * world.sky.ambient], 44);
@@ -118,19 +122,20 @@ export class Renderer {
     }
     const { width, height } = this.canvas;
     const targets = this.targetsOf(width, height);
+    let said = this.said;
     const clip = this.writeFrame(state, sight, this.scene.world);
     const encoder = this.device.createCommandEncoder();
     if (anew) {
       const pass = encoder.beginRenderPass({
-        colorAttachments: [targets.albedo, targets.normal].map((texture) => ({ view: texture.createView(), loadOp: 'clear', storeOp: 'store' }) as const),
+        colorAttachments: [targets.albedo, targets.normal, targets.geometric].map((texture) => ({ view: texture.createView(), loadOp: 'clear', storeOp: 'store' }) as const),
         depthStencilAttachment: { view: targets.depth.createView(), depthClearValue: 0, depthLoadOp: 'clear', depthStoreOp: 'store' },
       });
       this.scene.draw(pass);
       pass.end();
-      this.shadows.record(encoder, { state, sight, clip_from_world: clip, width, height, depth: targets.depth });
+      said = this.shadows.record(encoder, { state, ...sight, clip_from_world: clip, width, height, depth: targets.depth, normal: targets.geometric });
     }
     const resources: GPUBindingResource[] = [
-      { buffer: this.frame }, targets.depth.createView(), targets.albedo.createView(), targets.normal.createView(), this.shadows.mask(width, height),
+      { buffer: this.frame }, targets.depth.createView(), targets.albedo.createView(), targets.normal.createView(), this.shadows.mask(),
       targets.truth.createView(),
     ];
     this.fill(encoder, this.shading, targets.lit.createView(), resources);
@@ -138,10 +143,8 @@ export class Renderer {
     this.fill(encoder, last, this.screen.view(), [targets.lit.createView(), this.sampler]);
     this.device.queue.submit([encoder.finish()]);
     this.screen.show();
-    if (anew) {
-      this.shadows.submitted();
-    }
-    return this.shadows.said;
+    this.said = said;
+    return said;
   }
 
   /** The mask of the last frame, a byte for each pixel. */
@@ -150,7 +153,7 @@ export class Renderer {
     const usage = GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC;
     const copy = this.device.createTexture({ size: [width, height], format: 'r8unorm', usage });
     const encoder = this.device.createCommandEncoder();
-    this.fill(encoder, this.reading, copy.createView(), [this.shadows.mask(width, height)]);
+    this.fill(encoder, this.reading, copy.createView(), [this.shadows.mask()]);
     this.device.queue.submit([encoder.finish()]);
     const out = await readTexels(this.device, copy, 1);
     copy.destroy();

@@ -35,6 +35,7 @@ struct Varying {
   @location(0) normal: vec3f,
   @location(1) colour: vec4f,
   @location(2) uv: vec2f,
+  @location(3) from_eye: vec3f,
 }
 
 @vertex fn vertex(v: Vertex) -> Varying {
@@ -44,6 +45,7 @@ struct Varying {
   let turned = vec3f(dot(cross(v.y.xyz, v.z.xyz), v.normal.xyz), dot(cross(v.z.xyz, v.x.xyz), v.normal.xyz), dot(cross(v.x.xyz, v.y.xyz), v.normal.xyz));
   var out: Varying;
   out.clip = frame.clip_from_world * vec4f(world, 1.0);
+  out.from_eye = world - frame.eye.xyz;
   out.normal = turned;
   out.colour = v.colour * v.colour;
   out.uv = v.uv;
@@ -53,9 +55,17 @@ struct Varying {
 struct Surface {
   @location(0) albedo: vec4f, // square roots
   @location(1) normal: vec4f, // world space, 0 to 1
+  @location(2) geometric: vec2f, // world space, octahedral; it faces the eye
+}
+
+// Based on: Z. Cigolle and others, "A Survey of Efficient Representations for Independent Unit Vectors", 2014.
+fn octahedral(n: vec3f) -> vec2f {
+  let p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+  return select((1.0 - abs(p.yx)) * select(vec2f(-1.0), vec2f(1.0), p >= vec2f(0.0)), p, n.z >= 0.0);
 }
 
 fn surface(v: Varying, front: bool, masked: bool) -> Surface {
+  let across = normalize(cross(dpdx(v.from_eye), dpdy(v.from_eye)));
   var colour = v.colour * material.colour;
   let layer = max(material.image, 0);
   let texel = textureSample(images, smooth_sampler, v.uv, layer).rgb;
@@ -67,7 +77,7 @@ fn surface(v: Varying, front: bool, masked: bool) -> Surface {
     discard;
   }
   let n = normalize(v.normal) * select(-1.0, 1.0, front);
-  return Surface(vec4f(sqrt(colour.rgb), 1.0), vec4f(0.5 * n + 0.5, 1.0));
+  return Surface(vec4f(sqrt(colour.rgb), 1.0), vec4f(0.5 * n + 0.5, 1.0), octahedral(across * select(1.0, -1.0, dot(across, v.from_eye) > 0.0)));
 }
 
 @fragment fn opaque(v: Varying, @builtin(front_facing) front: bool) -> Surface { return surface(v, front, false); }

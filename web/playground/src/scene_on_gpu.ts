@@ -29,6 +29,8 @@ export class SceneOnGpu {
   readonly vertices: GPUBuffer;
   readonly indices: GPUBuffer;
   readonly places: GPUBuffer;
+  /** Texture coordinates of all vertices, float32x2. */
+  readonly uvs: GPUBuffer;
   readonly images: GPUTexture;
   /** Of each place, in the world. */
   readonly bounds: Bounds[];
@@ -40,12 +42,14 @@ export class SceneOnGpu {
 
   constructor(private readonly device: GPUDevice, readonly world: World, frame: GPUBuffer, sampler: GPUSampler, colours: GPUTextureFormat[],
               depth: GPUTextureFormat) {
-    this.vertices = this.upload(world.vertexBytes, GPUBufferUsage.VERTEX | GPUBufferUsage.STORAGE);
+    this.vertices = this.upload(world.vertexBytes, GPUBufferUsage.VERTEX);
     this.indices = this.upload(world.indexValues, GPUBufferUsage.INDEX);
-    this.places = this.upload(world.placeValues, GPUBufferUsage.VERTEX | GPUBufferUsage.STORAGE);
+    this.places = this.upload(world.placeValues, GPUBufferUsage.VERTEX);
+    const unpacked = unpackVertices(world);
+    this.uvs = this.upload(unpacked.uvs, GPUBufferUsage.VERTEX);
     this.images = this.uploadImages();
     this.materials = this.uploadMaterials();
-    this.bounds = boundsOf(world);
+    this.bounds = boundsOf(world, unpacked.positions);
     const all = unionOf(this.bounds);
     this.radius = 0.5 * Math.hypot(...all.max.map((one, k) => one - all.min[k]));
     const layout = this.layout();
@@ -62,7 +66,7 @@ export class SceneOnGpu {
   }
 
   destroy(): void {
-    [this.vertices, this.indices, this.places, this.materials, this.images].forEach((one) => one.destroy());
+    [this.vertices, this.indices, this.places, this.uvs, this.materials, this.images].forEach((one) => one.destroy());
   }
 
   /** How a mesh is drawn: 0 one side, 1 both sides, 2 with holes. */
@@ -159,8 +163,7 @@ function unionOf(all: Bounds[]): Bounds {
   return out;
 }
 
-function boundsOf(world: World): Bounds[] {
-  const { positions } = unpackVertices(world);
+function boundsOf(world: World, positions: Float32Array): Bounds[] {
   const out: Bounds[] = [];
   for (const mesh of world.meshes) {
     const own: Bounds = { min: [Infinity, Infinity, Infinity], max: [-Infinity, -Infinity, -Infinity] };

@@ -26,7 +26,7 @@ const kDifference = 2.0;
 }
 
 fn sky(direction: vec3f) -> vec3f {
-  let base = mix(frame.horizon.rgb, frame.zenith.rgb, pow(clamp(direction.y, 0.0, 1.0), 0.55));
+  let base = 0.8 * mix(frame.horizon.rgb, frame.zenith.rgb, pow(clamp(direction.y, 0.0, 1.0), 0.4));
   let near = dot(direction, frame.to_sun.xyz);
   let glow = frame.sun.rgb * (0.05 * pow(max(near, 0.0), 24.0) + 0.25 * pow(max(near, 0.0), 900.0));
   return base + glow + frame.sun.rgb * 3.0 * smoothstep(frame.to_sun.w - 2e-5, frame.to_sun.w + 2e-5, near);

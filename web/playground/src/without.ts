@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The device, and the page where there is none: a sentence and pictures.
+import { wantedFeatures } from 'gnomon-shadows';
 import { element } from './controls.ts';
 
 const kPictures = [
@@ -21,7 +22,7 @@ export async function openDevice(): Promise<{ device: GPUDevice; software: boole
     return 'This browser has WebGPU but found no graphics device for it. Here are pictures instead.';
   }
   try {
-    const device = await adapter.requestDevice();
+    const device = await adapter.requestDevice({ requiredFeatures: wantedFeatures(adapter) });
     const { architecture, description, isFallbackAdapter } = adapter.info;
     return { device, software: isFallbackAdapter || /swiftshader|llvmpipe/i.test(`${architecture} ${description}`) };
   } catch (error) {

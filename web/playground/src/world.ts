@@ -96,7 +96,7 @@ function half(bits: number): number {
 }
 
 /** Positions (3 each), alphas and texture coordinates (2 each) of all vertices. */
-export function unpackVertices(world: World): { positions: Float32Array; alphas: Float32Array; uvs: Float32Array } {
+export function unpackVertices(world: World): { positions: Float32Array; alphas: Float32Array; uvs: Float32Array<ArrayBuffer> } {
   const view = new DataView(world.vertexBytes.buffer, world.vertexBytes.byteOffset, world.vertexBytes.byteLength);
   const positions = new Float32Array(world.vertices * 3);
   const alphas = new Float32Array(world.vertices);
