@@ -156,11 +156,12 @@ bare-test: packages
 site-packages:
 	@tools/install_packages.sh --only site packages.txt
 
-# A part of the site. npm installs in web/playground what builds it (package-lock.json).
+# A part of the site. npm installs in build/playground_npm what builds it (web/playground/package-lock.json).
 .PHONY: playground
 playground: configure
 	@cmake --build build --target gnomon_write_world -j $(JOBS)
-	@cd web/playground && npm ci --no-audit --no-fund --silent
+	@mkdir -p build/playground_npm && cp web/playground/package.json web/playground/package-lock.json build/playground_npm
+	@cd build/playground_npm && npm ci --no-audit --no-fund --silent
 	@node web/playground/build.mjs build/write_world build/playground
 
 .PHONY: site

@@ -8,7 +8,7 @@ import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 
 const root = resolve(process.argv[2]);
-const { build } = createRequire(join(root, 'web/playground/package.json'))('esbuild');
+const { build } = createRequire(join(root, 'build/playground_npm/package.json'))('esbuild');
 
 async function load(name) {
   const made = await build({ entryPoints: [join(root, `web/playground/src/${name}.ts`)], bundle: true, format: 'esm', write: false });

@@ -3,27 +3,30 @@
 //
 // usage: node build.mjs WRITE_WORLD FOLDER
 //
-// WRITE_WORLD: the program of data/write_world.cpp. The npm package is taken from web/dist. `make playground` builds both and calls this.
+// WRITE_WORLD: the program of data/write_world.cpp. The npm package is taken from build/web/dist, what builds the
+// page from build/playground_npm. `make playground` makes all three and calls this.
 import { execFileSync } from 'node:child_process';
 import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { build } from 'esbuild';
 
 // The times of day at which the worlds look best, seconds of their clocks.
 const kWorlds = { sundial: 420, rts: 0, canopies: 0 };
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, '../..');
-const packaged = join(root, 'web/dist');
+const npm = join(root, 'build/playground_npm');
+const { build } = createRequire(join(npm, 'package.json'))('esbuild');
+const packaged = join(root, 'build/web/dist');
 const [writeWorld, folder] = process.argv.slice(2);
 if (!folder) {
   console.error('usage: node build.mjs WRITE_WORLD FOLDER');
   process.exit(2);
 }
 
-execFileSync(join(here, 'node_modules/.bin/tsc'), ['-p', here], { stdio: 'inherit' });
+execFileSync(join(npm, 'node_modules/.bin/tsc'), ['-p', here], { stdio: 'inherit' });
 rmSync(folder, { recursive: true, force: true });
 for (const part of ['worlds', 'pictures']) {
   mkdirSync(join(folder, part), { recursive: true });

@@ -31,9 +31,11 @@ class Page {
   private reading = false;
   private mask: Uint8Array | undefined; // of the frame that is shown
   private loading = '';
+  private toTrace: ArrayBuffer | undefined; // a world that is not traced before it has been seen
 
   constructor(private readonly renderer: Renderer, private readonly choices: Choice[], private readonly software: boolean) {
     this.state = this.stateOf(location.hash);
+    renderer.shown = () => this.shown();
     this.truth = new Truth(() => this.redraw(false));
     this.controls = new Controls(choices, renderer.shadows.options(), kWorlds, (parts) => this.change(parts), () => this.state);
     this.listen();
@@ -123,7 +125,7 @@ class Page {
     const last = this.state;
     this.state = next;
     if (next.world !== this.world?.name) {
-      void this.load(next.world);
+      this.load(next.world).catch((error: unknown) => this.say(String(error)));
       return;
     }
     this.complete();
@@ -143,21 +145,21 @@ class Page {
     }
   }
 
-  /** Loads a world and shows it. */
-  async load(name: string): Promise<void> {
+  /** Loads a world and shows it. `begun`: it is being fetched. */
+  async load(name: string, begun?: Promise<ArrayBuffer>): Promise<void> {
     if (this.loading === name) {
       return;
     }
     this.loading = name;
     element('waiting').textContent = 'Loading the world …';
-    const bytes = await fetchWorld(name);
+    const bytes = await (begun ?? fetchWorld(name));
     if (this.state.world !== name) {
       return; // another one was asked for
     }
     this.loading = '';
     this.world = readWorld(bytes);
     this.renderer.setWorld(this.world);
-    this.truth.setWorld(bytes);
+    this.toTrace = bytes;
     this.complete();
     this.controls.setCameras(this.world.views.map((view) => view.name), (index) => {
       this.change({ camera: this.world!.views[index].name });
@@ -203,6 +205,15 @@ class Page {
     this.showNumbers();
   }
 
+  /** A picture is on the canvas. */
+  private shown(): void {
+    element('waiting').textContent = '';
+    if (this.toTrace) {
+      this.truth.setWorld(this.toTrace);
+      this.toTrace = undefined;
+    }
+  }
+
   /** Fetches the mask that is shown, to be held against the truth. */
   private async readMask(): Promise<void> {
     if (this.reading) {
@@ -246,29 +257,24 @@ class Page {
     element('dial-sun').setAttribute('transform', `translate(${out * Math.sin(turn)} ${-out * Math.cos(turn)})`);
     history.replaceState(null, '', writeAddress(state));
   }
-
-  /** Shows the state of the address. */
-  start(): Promise<void> {
-    return this.load(this.state.world);
-  }
 }
 
 async function main(): Promise<void> {
-  const found = await openDevice();
-  if (typeof found === 'string') {
-    showWithout(found);
-    return;
-  }
-  const fail = (error: unknown): void => showWithout(error instanceof Error ? error.message : String(error));
-  void found.device.lost.then((info) => info.reason !== 'destroyed' && showWithout('The browser has lost the graphics device. Reload the page to try again.'));
+  const name = readAddress(location.hash, kWorlds).world;
+  const begun = fetchWorld(name);
+  begun.catch(() => undefined); // load() says it
   try {
-    const choices = (await (await fetch('choices.json')).json()) as Choice[];
-    const renderer = await Renderer.make(found.device, element<HTMLCanvasElement>('canvas'), choices, found.software, () => {
-      element('waiting').textContent = '';
-    });
-    await new Page(renderer, choices, found.software).start();
+    const [found, answer] = await Promise.all([openDevice(), fetch('choices.json')]);
+    if (typeof found === 'string') {
+      showWithout(found);
+      return;
+    }
+    void found.device.lost.then((info) => info.reason !== 'destroyed' && showWithout('The browser has lost the graphics device. Reload the page to try again.'));
+    const choices = (await answer.json()) as Choice[];
+    const renderer = await Renderer.make(found.device, element<HTMLCanvasElement>('canvas'), choices, found.software);
+    await new Page(renderer, choices, found.software).load(name, begun);
   } catch (error) {
-    fail(error);
+    showWithout(error instanceof Error ? error.message : String(error));
   }
 }
 

@@ -31,6 +31,9 @@ interface Targets {
 }
 
 export class Renderer {
+  /** Called when a picture is on the canvas. */
+  shown: () => void = () => undefined;
+  private readonly screen: Screen;
   private readonly frame: GPUBuffer;
   private readonly sampler: GPUSampler;
   private readonly shading: GPURenderPipeline;
@@ -41,13 +44,14 @@ export class Renderer {
   private scene: SceneOnGpu | undefined;
   private targets: Targets | undefined;
 
-  /** `shown` is called when a picture is on the canvas. Throws an Error where the device cannot make what it needs. */
-  static async make(device: GPUDevice, canvas: HTMLCanvasElement, choices: readonly Choice[], software: boolean, shown: () => void): Promise<Renderer> {
-    return new Renderer(device, canvas, await Shadows.make(device, choices, software), new Screen(device, canvas, software, shown));
+  /** Throws an Error where the device cannot make what it needs. */
+  static async make(device: GPUDevice, canvas: HTMLCanvasElement, choices: readonly Choice[], software: boolean): Promise<Renderer> {
+    return new Renderer(device, canvas, await Shadows.make(device, choices, software), software);
   }
 
-  private constructor(private readonly device: GPUDevice, private readonly canvas: HTMLCanvasElement, readonly shadows: Shadows,
-                      private readonly screen: Screen) {
+  private constructor(private readonly device: GPUDevice, private readonly canvas: HTMLCanvasElement, readonly shadows: Shadows, software: boolean) {
+    this.screen = new Screen(device, canvas, software, () => this.shown());
+    const { screen } = this;
     this.frame = device.createBuffer({ size: 4 * kFrameFloats, usage: GPUBufferUsage.UNIFORM | GPUBufferUsage.COPY_DST });
     this.sampler = device.createSampler({ magFilter: 'linear', minFilter: 'linear', mipmapFilter: 'linear', addressModeU: 'repeat', addressModeV: 'repeat' });
     this.shading = this.screenPipeline(shadeText, 'shade', kFormats.lit);

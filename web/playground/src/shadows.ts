@@ -42,7 +42,7 @@ export class Shadows {
   private frames = 0;
   private hasMask = false;
 
-  private constructor(private readonly device: GPUDevice, private readonly gnomon: Gnomon, shaders: Shaders, private readonly choices: readonly Choice[],
+  private constructor(device: GPUDevice, private readonly gnomon: Gnomon, shaders: Shaders, private readonly choices: readonly Choice[],
                       private readonly software: boolean) {
     this.planner = gnomon.makePlanner();
     this.renderer = new ShadowRenderer(device, gnomon, this.planner, { shaders });
