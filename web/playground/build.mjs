@@ -40,7 +40,7 @@ for (const [name, time] of Object.entries(kWorlds)) {
 execFileSync(writeWorld, ['--choices', join(folder, 'choices.json')]);
 await build({
   entryPoints: ['main.ts', 'truth_worker.ts', 'style.css'].map((name) => join(here, 'src', name)), outdir: folder,
-  alias: { 'gnomon-shadows': join(packaged, 'index.js') }, bundle: true, minify: true, format: 'esm', target: 'es2022', loader: { '.wgsl': 'text' }, logLevel: 'warning',
+  alias: { 'gnomon-shadows': join(packaged, 'index.js') }, bundle: true, external: ['node:*'], minify: true, format: 'esm', target: 'es2022', loader: { '.wgsl': 'text' }, logLevel: 'warning',
 });
 for (const name of ['gnomon.wasm', 'shaders.json.gz']) {
   copyFileSync(join(packaged, name), join(folder, name));
