@@ -158,7 +158,7 @@ site-packages:
 
 # A part of the site. npm installs in build/playground_npm what builds it (web/playground/package-lock.json).
 .PHONY: playground
-playground: configure
+playground: web
 	@cmake --build build --target gnomon_write_world -j $(JOBS)
 	@mkdir -p build/playground_npm && cp web/playground/package.json web/playground/package-lock.json build/playground_npm
 	@cd build/playground_npm && npm ci --no-audit --no-fund --silent

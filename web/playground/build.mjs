@@ -3,7 +3,7 @@
 //
 // usage: node build.mjs WRITE_WORLD FOLDER
 //
-// WRITE_WORLD: the program of data/write_world.cpp. The npm package is taken from build/web/dist, what builds the
+// WRITE_WORLD: the program of data/write_world.cpp. The npm package is taken from build/web/package/dist, what builds the
 // page from build/playground_npm. `make playground` makes all three and calls this.
 import { execFileSync } from 'node:child_process';
 import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -19,7 +19,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, '../..');
 const npm = join(root, 'build/playground_npm');
 const { build } = createRequire(join(npm, 'package.json'))('esbuild');
-const packaged = join(root, 'build/web/dist');
+const packaged = join(root, 'build/web/package/dist');
 const [writeWorld, folder] = process.argv.slice(2);
 if (!folder) {
   console.error('usage: node build.mjs WRITE_WORLD FOLDER');
