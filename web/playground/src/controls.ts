@@ -93,7 +93,8 @@ export class Controls {
     const offered: readonly string[] = kOffered[part];
     fillSelect(select, offered.includes(value) ? offered : [...offered, value], (name) => name);
     select.value = value;
-    element(`${part}-says`).textContent = `${this.choices.find((one) => one.choice === part && one.name === value)?.summary ?? ''}.`;
+    const says = this.choices.find((one) => one.choice === part && one.name === value)?.summary ?? '';
+    element(`${part}-says`).textContent = says && `${says[0].toUpperCase()}${says.slice(1)}.`;
   }
 
   /** Shows the state. `camera`: the place in the list of cameras, 0 for one's own. */

@@ -14,9 +14,16 @@ const kLeastHeight_deg = 3;
 const kSoftware = { width: 640, height: 360 };
 const kLargest = { width: 1280, height: 720 };
 
-/** A camera of a world by its name, or the first. */
+// The dial with the house behind it, which none of the world's own cameras shows.
+const kFirstCameras: Record<string, Camera> = { sundial: { eye: [4.6, 3.3, 3.4], target: [-1.2, 1.25, -1.6], fov: 45 } };
+
+/** A camera of a world by its name; else the one that visitors see first. */
 function cameraOf(world: World, name: string | undefined, fov: number | undefined): Camera {
-  const view = world.views.find((one) => one.name === name) ?? world.views[0];
+  const named = world.views.find((one) => one.name === name);
+  if (!named && world.name in kFirstCameras) {
+    return kFirstCameras[world.name];
+  }
+  const view = named ?? world.views[0];
   return { eye: view.eye, target: view.target, fov: fov ?? degrees(view.fov_y_rad) };
 }
 
@@ -159,6 +166,7 @@ class Page {
     this.loading = '';
     this.world = readWorld(bytes);
     this.renderer.setWorld(this.world);
+    this.truth.stop();
     this.toTrace = bytes;
     this.complete();
     this.controls.setCameras(this.world.views.map((view) => view.name), (index) => {
@@ -193,8 +201,8 @@ class Page {
     if (anew) {
       this.anew = false;
       const view = { width, height, camera: sight.camera, sun: sight.sun, light: state.light };
-      if (JSON.stringify(view) !== JSON.stringify(this.truth.view) || this.truth.world !== world.name) {
-        this.truth.restart(view, world.name);
+      if (JSON.stringify(view) !== JSON.stringify(this.truth.view)) {
+        this.truth.restart(view);
       }
     }
     this.renderer.setTruth(this.truth.visibility);

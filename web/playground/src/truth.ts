@@ -15,8 +15,6 @@ export class Truth {
   private readonly idle: boolean[];
   /** What is traced. */
   view: TruthView | undefined;
-  /** The world that it is traced in. */
-  world = '';
   private id = 0;
 
   /** `changed` is called when there is more to see. */
@@ -30,16 +28,21 @@ export class Truth {
     });
   }
 
-  /** Another world: nothing is traced until the next restart(). */
-  setWorld(bytes: ArrayBuffer): void {
+  /** Nothing is traced until there are a world and a view. */
+  stop(): void {
     ++this.id;
     this.view = undefined;
+    this.samples = 0;
     this.idle.fill(false);
+  }
+
+  /** The world that the present view, and all that follow, are traced in. Call stop() before. */
+  setWorld(bytes: ArrayBuffer): void {
     this.workers.forEach((worker, index) => this.post(worker, { kind: 'world', bytes, index, workers: this.workers.length }));
   }
 
   /** Begins anew with another view. */
-  restart(view: TruthView, world: string): void {
+  restart(view: TruthView): void {
     const size = view.width * view.height;
     if (this.visibility.length !== size) {
       this.visibility = new Uint8Array(size).fill(255);
@@ -48,7 +51,6 @@ export class Truth {
     this.samples = 0;
     this.samplesOf.fill(0);
     this.view = view;
-    this.world = world;
     ++this.id;
     this.workers.forEach((worker, index) => this.idle[index] && this.post(worker, { kind: 'view', id: this.id, view }));
   }
