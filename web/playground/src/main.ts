@@ -38,7 +38,10 @@ class Page {
   private reading = false;
   private mask: Uint8Array | undefined; // of the frame that is shown
   private loading = '';
-  private toTrace: ArrayBuffer | undefined; // a world that is not traced before it has been seen
+  private toTrace: ArrayBuffer | undefined; // a world that is not traced before its shadows have been seen
+  /** The first picture has no shadows yet: on a processor their shaders take seconds to compile. */
+  private step: 'nothing' | 'surfaces' | 'shadows' = 'nothing';
+  private shadowed = false; // shadows have been drawn
 
   constructor(private readonly renderer: Renderer, private readonly choices: Choice[], private readonly software: boolean) {
     this.state = this.stateOf(location.hash);
@@ -206,7 +209,12 @@ class Page {
       }
     }
     this.renderer.setTruth(this.truth.visibility);
-    this.say(this.renderer.draw(state, sight, anew));
+    if (this.step === 'nothing') {
+      this.renderer.draw(state, sight, 'surfaces');
+      return;
+    }
+    this.shadowed ||= anew;
+    this.say(this.renderer.draw(state, sight, anew ? 'shadows' : 'light'));
     if (!this.mask) {
       void this.readMask();
     }
@@ -215,8 +223,16 @@ class Page {
 
   /** A picture is on the canvas. */
   private shown(): void {
-    element('waiting').textContent = '';
-    if (this.toTrace) {
+    const first = this.step === 'nothing';
+    if (first) {
+      this.step = 'surfaces';
+      this.redraw(true);
+    } else if (this.shadowed) {
+      this.step = 'shadows';
+    }
+    document.body.dataset.shown = this.step;
+    element('waiting').textContent = this.step === 'surfaces' ? 'Compiling shaders of shadows …' : '';
+    if (this.toTrace && this.step === 'shadows') {
       this.truth.setWorld(this.toTrace);
       this.toTrace = undefined;
     }

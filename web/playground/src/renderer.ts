@@ -118,9 +118,9 @@ export class Renderer {
     return this.scene?.radius ?? 1;
   }
 
-  /** Draws a frame. `anew`: camera, sun, world or technique changed; otherwise the mask is that of the last frame. What it
-   * returns is for the visitor: why shadows are not as asked, or nothing. */
-  draw(state: PageState, sight: Sight, anew: boolean): string {
+  /** Draws a frame. `drawn`: which parts are drawn anew; the others are those of the last frame. What it returns is for the
+   * visitor: why shadows are not as asked, or nothing. */
+  draw(state: PageState, sight: Sight, drawn: 'light' | 'surfaces' | 'shadows'): string {
     if (!this.scene) {
       return '';
     }
@@ -129,13 +129,15 @@ export class Renderer {
     let said = this.said;
     const clip = this.writeFrame(state, sight, this.scene.world);
     const encoder = this.device.createCommandEncoder();
-    if (anew) {
+    if (drawn !== 'light') {
       const pass = encoder.beginRenderPass({
         colorAttachments: [targets.albedo, targets.normal, targets.geometric].map((texture) => ({ view: texture.createView(), loadOp: 'clear', storeOp: 'store' }) as const),
         depthStencilAttachment: { view: targets.depth.createView(), depthClearValue: 0, depthLoadOp: 'clear', depthStoreOp: 'store' },
       });
       this.scene.draw(pass);
       pass.end();
+    }
+    if (drawn === 'shadows') {
       said = this.shadows.record(encoder, { state, ...sight, clip_from_world: clip, width, height, depth: targets.depth, normal: targets.geometric });
     }
     const resources: GPUBindingResource[] = [
