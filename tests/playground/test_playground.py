@@ -149,6 +149,22 @@ class Playground(unittest.TestCase):
         browser.drag((x, y + 60), (x + 100, y + 60))
         self.assertGreater(float(part("split")), float(before["split"]))
 
+    def test_fingers_do_it_too(self):
+        browser = self.show("#world=canopies", PHONE)
+
+        def part(name: str) -> str:
+            return browser.run(f"new URLSearchParams(location.hash.slice(1)).get('{name}')")
+
+        before = {name: part(name) for name in ("sun", "camera")}
+        x, y = browser.run("(b => [b.x + b.width / 2, b.y + b.height / 2])(document.getElementById('dial').getBoundingClientRect())")
+        browser.touch([(x, y)], [(x + 10, y + 5)], [(x + 20, y + 5)])
+        self.assertNotEqual(part("sun"), before["sun"])
+        x, y = browser.run("(b => [b.x + b.width / 4, b.y + b.height / 2])(document.getElementById('canvas').getBoundingClientRect())")
+        browser.touch([(x - 20, y), (x + 20, y)], [(x - 40, y), (x + 40, y)])
+        eye = [[float(one) for one in text.split(",")[:6]] for text in (before["camera"], part("camera"))]
+        far = [sum((camera[i] - camera[i + 3]) ** 2 for i in range(3)) for camera in eye]
+        self.assertLess(far[1], 0.7 * far[0])
+
     def test_keys_do_it_too(self):
         browser = self.show("#world=canopies")
         for focus, key, name in (("canvas", "ArrowLeft", "camera"), ("divider", "ArrowRight", "split"), ("height", "ArrowRight", "sun")):

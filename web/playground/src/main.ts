@@ -273,8 +273,10 @@ class Page {
     divider.hidden = !divided;
     divider.style.left = `${100 * state.split}%`;
     divider.setAttribute('aria-valuenow', String(Math.round(100 * state.split)));
-    element('tag-left').hidden = !divided || state.split < 0.12;
-    element('tag-right').hidden = state.view === 'difference' || state.split > 0.88;
+    const compares = state.view === 'difference';
+    element('tag-left').hidden = !(divided && state.split > 0.12) && !compares;
+    element('tag-left').textContent = compares ? 'orange: too light, blue: too dark' : 'Gnomon';
+    element('tag-right').hidden = compares || (divided && state.split > 0.88);
     const [azimuth, height] = state.sun ?? [0, 45];
     const turn = ((azimuth - this.heading) * Math.PI) / 180;
     const out = 46 * (1 - height / 90);
