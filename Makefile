@@ -156,13 +156,11 @@ bare-test: packages
 site-packages:
 	@tools/install_packages.sh --only site packages.txt
 
-# A part of the site. npm installs in build/playground_npm what builds it (web/playground/package-lock.json).
+# A part of the site. npm installs in build/playground_npm what builds it.
 .PHONY: playground
 playground: web
 	@cmake --build build --target gnomon_write_world -j $(JOBS)
-	@mkdir -p build/playground_npm && cp web/playground/package.json web/playground/package-lock.json build/playground_npm
-	@cd build/playground_npm && npm ci --no-audit --no-fund --silent
-	@node web/playground/build.mjs build/write_world build/playground
+	@web/playground/make.py build/write_world build/playground
 
 .PHONY: site
 site: site-packages
