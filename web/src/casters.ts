@@ -54,8 +54,8 @@ export class CasterPipelines {
 
     /**
      * Draws a pass's casters. `meshesOf`: of an object by its index; none: it casts nothing. `transformOf`: three rows of four numbers,
-     * p_ws[i] = dot(row i, (p, 1)). Neighbours in the set that get the
-     * same list of meshes are drawn together. Data goes by the queue: submit the encoder before the next plan is made.
+     * p_ws[i] = dot(row i, (p, 1)). Neighbours in the set that get the same list of meshes are drawn
+     * together. Data goes by the queue: submit the encoder before the next plan is made.
      */
     draw(pass: CasterPass, meshesOf: (object: number) => readonly CasterMesh[], transformOf: (object: number) => ArrayLike<number>): void {
         if (pass.casters.length === 0) {
