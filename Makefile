@@ -39,6 +39,7 @@ help:
 	@echo "make package-test install them in a bare Debian root, and build and run the examples there (needs root, minutes)"
 	@echo "make bare-test    make demo and make test in a bare Debian root (needs root and a mirror, an hour)"
 	@echo "make site    documents, gallery and API reference as a site, in build/site/; install what it takes"
+	@echo "make playground   the site's page on which techniques are tried, in build/playground/"
 	@echo "make kit     every shader pass as SPIR-V, GLSL, ESSL, HLSL, MSL and WGSL, with passes.json, in out/kit/"
 	@echo "make kit-check    make it twice, and hand it to the compilers of each dialect"
 	@echo "make web     the npm package for WebGPU, in out/web/"
@@ -154,6 +155,12 @@ bare-test: packages
 .PHONY: site-packages
 site-packages:
 	@tools/install_packages.sh --only site packages.txt
+
+# A part of the site. npm installs in build/playground_npm what builds it.
+.PHONY: playground
+playground: web
+	@cmake --build build --target gnomon_write_world -j $(JOBS)
+	@web/playground/make.py build/write_world build/playground
 
 .PHONY: site
 site: site-packages

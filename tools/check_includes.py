@@ -103,6 +103,7 @@ RULES = [
     ("lab/", ABOVE | {"gd"}, "the lab knows public headers"),
     ("app/", ABOVE | {"app", "worlds", "cli", "text", "shared"}, "the program knows public headers, and widgets in app/src/view alone"),
     ("app/src/view/", ABOVE | {"app", "worlds", "imgui"}, "the window's panels are of Dear ImGui"),
+    ("web/playground/", {"std", "std-file", "glm", "core-geometry", "core-public", "scene", "worlds"}, "the playground's data are worlds and choices"),
     ("examples/", STD | PUBLIC | {"c-public", "gl-public", "glm", "vulkan-api", "graphics", "spirv", "shared", "shader-lib"},
      "an example is an engine: it has the library's public headers and nothing else of ours"),
     ("examples/osg/", STD | PUBLIC | {"gl-public", "glm", "graphics", "osg"}, "one by OpenSceneGraph has that, too"),

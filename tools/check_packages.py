@@ -38,6 +38,7 @@ SECTIONS = [("", CHECKS), ("cmake/", PROGRAM), ("core/", LIBRARY), ("pack/", LIB
             ("gl/", TESTS), ("examples/", LIBRARY), ("examples/gl_host/", TESTS), ("examples/osg/", EXAMPLES),
             *((f"{name}/", PROGRAM) for name in ("files", "image", "scene", "worlds", "truth", "host", "lab", "app")),
             ("tests/", TESTS), ("tests/fuzz/", CHECKS), ("tests/site/", SITE), ("kit/", KIT), ("tests/kit/", KIT), ("web/", WEB), ("tests/web/", KIT),
+            ("tests/playground/", KIT),
             ("tools/make_", SITE), ("tools/site_pages.py", SITE)]
 FOLDERS = ("/usr/bin", "/usr/sbin", "/bin", "/sbin", "/usr/games")
 WORD = r"([A-Za-z][\w.+-]*)(?=[\s)\"';|&]|$)"
@@ -200,7 +201,7 @@ def main() -> int:
     wanted = listed(options.list or root / "packages.txt")
     bare = re.search(r"--include=(\S+)", (project_root() / "tools/bare_root.sh").read_text(encoding="utf-8"))[1].split(",")
     allowed = {sections: packages.closure([*bare, *(name for section in sections for name in wanted.get(section, []))])
-               for sections in (LIBRARY, PROGRAM, TESTS, CHECKS, SITE, KIT, EXAMPLES)}
+               for sections in (LIBRARY, PROGRAM, TESTS, CHECKS, SITE, KIT, EXAMPLES, WEB)}
     if options.programs:
         print(f"packages: {link_programs(packages, allowed[SITE] | allowed[KIT], options.programs)} programs in {options.programs}")
     uses = list(used_by_scripts(root))

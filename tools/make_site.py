@@ -5,7 +5,7 @@
 usage: make_site.py [--api] FOLDER
 
 FOLDER is made anew; what the pages are made of lies beside it, in FOLDER-pages. --api: the API reference alone. Takes Debian's
-doxygen, mkdocs and mkdocs-material (packages.txt, section site).
+doxygen, mkdocs and mkdocs-material (packages.txt, section site). The playground is a part of it where `make playground` has built it.
 
 Exit status 1 when a public name has no documentation, a page lacks what it links to, mkdocs warns, or a page of the site
 links to what is not there.
@@ -23,6 +23,7 @@ import urllib.parse
 import xml.etree.ElementTree
 from pathlib import Path, PurePosixPath
 
+import site_playground
 from site_pages import SOURCES, Pages
 from sources import project_root
 
@@ -80,8 +81,14 @@ def make_pages(root: Path, site: Path) -> None:
     pages.write(PurePosixPath("stylesheets/colours.css"), colours(root))
     for name, place in {"site.css": "stylesheets/site.css", "favicon.svg": "favicon.svg"}.items():
         pages.write(PurePosixPath(place), (root / "site" / name).read_text(encoding="utf-8"))
+    settings = (root / "site/mkdocs.yml").read_text(encoding="utf-8")
+    if site_playground.install(root, work / "docs"):
+        settings = site_playground.navigation(settings)
+    else:
+        print(f"The site is made WITHOUT THE PLAYGROUND: there is no {site_playground.BUILT}; build it by `make playground`", file=sys.stderr)
+    (work / "mkdocs.yml").write_text(settings, encoding="utf-8")
     where = {**os.environ, "GNOMON_SITE_PAGES": str(work / "docs"), "GNOMON_SITE": str(site)}
-    command = [PYTHON, "-m", "mkdocs", "build", "--strict", "--clean", "--config-file", root / "site/mkdocs.yml"]
+    command = [PYTHON, "-m", "mkdocs", "build", "--strict", "--clean", "--config-file", work / "mkdocs.yml"]
     run = subprocess.run(command, cwd=root, env=where, capture_output=True, text=True, check=False)
     # It also lists what the navigation leaves out, which the pages of sources are meant to be.
     said = [line for line in run.stderr.splitlines() if not line.startswith(("INFO", "  - "))]
@@ -131,6 +138,8 @@ def faults_of(site: Path) -> list[str]:
             target = target / "index.html" if target.is_dir() else target
             if not target.is_file():
                 faults.add(f"{name}: {address} is not there")
+            elif target == site / site_playground.PAGE:
+                continue  # what follows # is its state
             elif parts.fragment and target in pages and urllib.parse.unquote(parts.fragment) not in pages[target].ids:
                 faults.add(f"{name}: {address} has no such place")
     return sorted(faults)

@@ -54,7 +54,8 @@ export class CasterPipelines {
 
     /**
      * Draws a pass's casters. `meshesOf`: of an object by its index; none: it casts nothing. `transformOf`: three rows of four numbers,
-     * p_ws[i] = dot(row i, (p, 1)). Data goes by the queue: submit the encoder before the next plan is made.
+     * p_ws[i] = dot(row i, (p, 1)). Neighbours in the set that get the same list of meshes are drawn
+     * together. Data goes by the queue: submit the encoder before the next plan is made.
      */
     draw(pass: CasterPass, meshesOf: (object: number) => readonly CasterMesh[], transformOf: (object: number) => ArrayLike<number>): void {
         if (pass.casters.length === 0) {
@@ -64,10 +65,16 @@ export class CasterPipelines {
         pass.casters.forEach((object, i) => transforms.set(transformOf(object), 12 * i));
         const offset = this.upload(pass.plan, this.planner.writeCasterRows(pass.viewIndex, transforms));
         pass.encoder.setVertexBuffer(1, this.rows!, offset);
-        pass.casters.forEach((object, i) => meshesOf(object).forEach(mesh => this.drawMesh(pass, mesh, i)));
+        for (let first = 0, next = 0; first < pass.casters.length; first = next) {
+            const meshes = meshesOf(pass.casters[first]!);
+            for (next = first + 1; next < pass.casters.length && meshesOf(pass.casters[next]!) === meshes;) {
+                ++next;
+            }
+            meshes.forEach(mesh => this.drawMesh(pass, mesh, first, next - first));
+        }
     }
 
-    private drawMesh(pass: CasterPass, mesh: CasterMesh, instance: number): void {
+    private drawMesh(pass: CasterPass, mesh: CasterMesh, instance: number, instances: number): void {
         const {encoder} = pass;
         encoder.setPipeline(this.pipeline(pass, mesh));
         encoder.setVertexBuffer(0, mesh.positions);
@@ -77,7 +84,7 @@ export class CasterPipelines {
             encoder.setVertexBuffer(2, mesh.holes.uvs);
             encoder.setBindGroup(0, this.texture(mesh.holes.texture));
         }
-        encoder.drawIndexed(mesh.indexCount, 1, mesh.firstIndex ?? 0, mesh.baseVertex ?? 0, instance);
+        encoder.drawIndexed(mesh.indexCount, instances, mesh.firstIndex ?? 0, mesh.baseVertex ?? 0, instance);
     }
 
     private upload(plan: Plan, rows: Float32Array<ArrayBuffer>): number {
