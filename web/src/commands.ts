@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The commands of a frame (pack/frame_commands.h), as the executor reads them.
+
+/** An image that commands name: its kind, and the planner's options that it belongs to (0: the frame's own). */
+export interface ImageRef {kind: string, options: number}
+/** A buffer, likewise. */
+export interface BufferRef {kind: string, options: number}
+/** A rectangle of a layer, texels. */
+export interface Tile {layer: number, x: number, y: number, width: number, height: number}
+/** The shape of an image. `format`: of gnomon::MapFormat ("d32f"), or "r32ui". */
+export interface ImageShape {format: string, width: number, height: number, layers: number, levels: number, samples: number}
+/** What is drawn to. */
+export interface Target {
+    colour: ImageRef | null;
+    colourLayer: number;
+    depth: ImageRef | null;
+    depthLayer: number;
+    viewport: Tile;
+    scissor: Tile;
+    /** Bit i: channel i of colour is written. */
+    channels: number;
+}
+/** An image or a buffer as a module reads or writes it. */
+export interface Binding {
+    binding: number;
+    kind: 'texture' | 'storageImage' | 'uniform' | 'storage';
+    image: ImageRef | null;
+    /** Mip level; null: all. */
+    level: number | null;
+    linear: boolean;
+    buffer: BufferRef | null;
+    offset: number;
+    /** 0: the whole buffer. */
+    bytes: number;
+}
+/** Which of a view's casters are drawn. */
+export type CasterShare = 'all' | 'still' | 'moving';
+interface Runs {constants: Uint32Array, push: Uint32Array, bindings: Binding[]}
+/** One command. */
+export type Command =
+    | {kind: 'dropOptions', options: number}
+    | {kind: 'makeImage', image: ImageRef, shape: ImageShape, keeps: boolean}
+    | {kind: 'makeBuffer', buffer: BufferRef, bytes: number, copies: number}
+    | {kind: 'writeBuffer', buffer: BufferRef, offset: number, data: Uint32Array}
+    | {kind: 'zeroBuffer', buffer: BufferRef}
+    | {kind: 'copyTexels', from: ImageRef, area: Tile, to: ImageRef, place: Tile}
+    | {kind: 'clearTarget', target: Target}
+    | {kind: 'drawMapCasters', target: Target, view: number, share: CasterShare}
+    | {kind: 'drawTriangle', target: Target, vertex: string, fragment: string, least: boolean} & Runs
+    | {kind: 'runCompute', module: string, groups: [number, number, number]} & Runs;
+export type DrawTriangle = Extract<Command, {kind: 'drawTriangle'}>;
+export type RunCompute = Extract<Command, {kind: 'runCompute'}>;
