@@ -41,13 +41,14 @@ help:
 	@echo "make site    documents, gallery and API reference as a site, in build/site/; install what it takes"
 	@echo "make kit     every shader pass as SPIR-V, GLSL, ESSL, HLSL, MSL and WGSL, with passes.json, in out/kit/"
 	@echo "make kit-check    make it twice, and hand it to the compilers of each dialect"
+	@echo "make web     the npm package for WebGPU, in out/web/"
 	@echo "make gallery draw the gallery and its films anew, into docs/ (minutes)"
 	@echo "make films   the films alone"
 	@echo "make clean   remove build folders and out/"
 
 .PHONY: packages
 packages:
-	@tools/install_packages.sh --without site --without kit --without "compilers of the kit" --without examples packages.txt
+	@tools/install_packages.sh --without site --without kit --without "compilers of the kit" --without examples --without web packages.txt
 
 .PHONY: configure
 configure: packages
@@ -176,6 +177,12 @@ ifndef BUILT
 	@$(MAKE) -s build
 endif
 	@ctest --test-dir build --output-on-failure --no-tests=error -L kit
+
+# The npm package (docs/webgpu.md).
+.PHONY: web
+web: kit
+	@tools/install_packages.sh --only web packages.txt
+	@JOBS=$(JOBS) web/tools/make_package.py out/kit build/web out/web
 
 .PHONY: gallery
 gallery: configure site-packages

@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The npm package: it installs from its tarball in an empty folder, plans in node what the library plans on this machine, and draws in
+Chromium the masks that the Vulkan backend draws.
+
+usage: test_web.py PACKAGE.tgz WEB_CASES [RESULTS.json]
+
+WEB_CASES is the program of draw_cases.cpp. Without node or Chromium nothing is tested, which is said; exit status 77.
+"""
+
+import http.server
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "page"))
+import browser  # noqa: E402
+from browser import Browser, find_chromium  # noqa: E402
+from masks import Mask, beyond_edges, farthest  # noqa: E402
+from recorder import run_cases  # noqa: E402
+
+PACKAGE, WEB_CASES = (Path(one).resolve() for one in sys.argv[1:3])
+RESULTS = Path(sys.argv[3]) if len(sys.argv) > 3 else None
+# SwiftShader draws, which comes with Chromium: WebGPU without a GPU.
+FLAGS = ("--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader")
+SLOW_S = 120  # it compiles each pipeline on one processor
+MOST_KB = 1500
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    extensions_map = {**http.server.SimpleHTTPRequestHandler.extensions_map, ".wasm": "application/wasm", ".mjs": "text/javascript"}
+
+    def log_message(self, *_):
+        pass
+
+
+class Server:
+    """Serves a folder on this machine."""
+
+    def __init__(self, folder: Path):
+        self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), lambda *args: Quiet(*args, directory=str(folder)))
+        self.address = f"http://127.0.0.1:{self.server.server_port}/"
+        threading.Thread(target=self.server.serve_forever, daemon=True).start()
+
+    def stop(self):
+        self.server.shutdown()
+        self.server.server_close()
+
+
+class Web(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.kept = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        cls.folder = Path(cls.kept.name)
+        cls.addClassCleanup(cls.kept.cleanup)
+        (cls.folder / "package.json").write_text('{"name": "host", "private": true, "type": "module"}')
+        subprocess.run(["npm", "install", "--offline", "--no-audit", "--no-fund", str(PACKAGE)], cwd=cls.folder, check=True, capture_output=True)
+        (cls.folder / "package").symlink_to("node_modules/gnomon-shadows")
+        (cls.folder / "cases").mkdir()
+        subprocess.run([WEB_CASES, cls.folder / "cases"], check=True)
+        for file in HERE.glob("*"):
+            if file.suffix in (".mjs", ".html"):
+                shutil.copy(file, cls.folder)
+        cls.server = Server(cls.folder)
+        cls.addClassCleanup(cls.server.stop)
+        browser.ARGUMENTS = [one for one in browser.ARGUMENTS if one != "--disable-gpu"] + list(FLAGS)
+        browser.LONGEST_WAIT_S = SLOW_S
+        cls.browser = Browser(find_chromium())
+        cls.addClassCleanup(cls.browser.__exit__)
+        cls.browser.visit(cls.server.address + "index.html")
+        cls.browser.wait_for("globalThis.isReady === true")
+
+    def test_node_plans(self):
+        done = subprocess.run(["node", "--test", "planner.test.mjs"], cwd=self.folder, capture_output=True, text=True, check=False,
+                              env={**os.environ, "CASES": str(self.folder / "cases")})
+        print("\n".join(line for line in done.stdout.splitlines() if "numbers differ" in line))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertNotIn("# pass 0\n", done.stdout)
+
+    def test_types_are_shipped(self):
+        self.assertTrue((self.folder / "node_modules/gnomon-shadows/dist/index.d.ts").is_file())
+
+    def test_it_is_light(self):
+        self.assertLess(PACKAGE.stat().st_size, 1000 * MOST_KB)
+
+    def test_chromium_draws_the_masks_of_vulkan(self):
+        self.assertTrue(self.browser.run("hasDevice"), "Chromium has no WebGPU")
+        told = json.loads((self.folder / "cases/cases.json").read_text())
+        for case in told["cases"]:
+            with self.subTest(case["name"]):
+                shape = (told["scene"]["widthPx"], told["scene"]["heightPx"], case["channels"], case["layers"])
+                wanted = Mask((self.folder / "cases" / f"{case['name']}.bin").read_bytes(), *shape)
+                # A second frame holds what is there, and the same mask comes of it.
+                drawn = self.browser.run(f"drawCase('{case['name']}', 2)")
+                mask = Mask(bytes.fromhex(drawn["texels"]), *shape)
+                apart, beyond = farthest(mask, wanted), beyond_edges(mask, wanted)
+                print(f"{case['name']:14} farthest {apart:3} of 255, {beyond} beyond edges; second frame {drawn['reuse']}")
+                self.assertGreater(wanted.spread(), 128, "there is no shadow to compare")
+                self.assertEqual(beyond, 0)
+                if case["exact"]:
+                    self.assertLessEqual(apart, 1)
+                self.assertEqual(drawn["reuse"]["drawn"] + drawn["reuse"]["keptDrawn"], 0, "what stands still is drawn again")
+        self.assertEqual(self.browser.problems, [])
+
+    def test_a_check_can_fail(self):
+        shape = (160, 90, 1, 1)
+        folder = self.folder / "cases"
+        sun, spot = (Mask((folder / f"{name}.bin").read_bytes(), *shape) for name in ("hard_sun", "pcf_spot"))
+        self.assertGreater(farthest(sun, spot), 128)
+        self.assertGreater(beyond_edges(sun, spot), 20)
+
+    def test_nothing_is_asked_for_beyond_its_own_files(self):
+        self.assertTrue(self.browser.requests)
+        self.assertEqual([one for one in self.browser.requests if not one.startswith(self.server.address)], [])
+        # The observer would have seen it.
+        self.browser.run("fetch('https://example.org/').catch(() => 0)")
+        self.assertTrue(any("Content Security Policy" in one for one in self.browser.problems), self.browser.problems)
+        self.browser.problems.clear()
+
+    def test_what_a_device_lacks_is_told(self):
+        for options, found in (("filter=hard map-format=r16", "map-format=r32f"), ("partition=sdsm filter=pcf", "sdsm"),
+                               ("filter=pcf map-size=16384 partition=single", "texels")):
+            with self.subTest(options):
+                self.assertIn(found, self.browser.run(f"refusal({options!r})"))
+
+
+if __name__ == "__main__":
+    missing = [name for name, there in (("node", shutil.which("node")), ("npm", shutil.which("npm")), ("Chromium", find_chromium())) if not there]
+    if missing:
+        print(f"SKIPPED: {', '.join(missing)} is missing; install the sections kit and tests of packages.txt")
+        sys.exit(77)
+    sys.exit(run_cases(Web, RESULTS))
