@@ -121,7 +121,7 @@ export class CasterPipelines {
 
     private pipeline(pass: CasterPass, mesh: CasterMesh): GPURenderPipeline {
         const perspective = pass.view.orthographic === 0;
-        const key = [pass.colourFormat, pass.depthFormat, pass.samples, pass.writesFragDepth, pass.clampsDepth, perspective, mesh.stride,
+        const key = [pass.colourFormat, pass.colourWriteMask, pass.depthFormat, pass.samples, pass.writesFragDepth, pass.clampsDepth, perspective, mesh.stride,
                      mesh.holes ? mesh.holes.stride ?? 8 : 0].join();
         let made = this.pipelines.get(key);
         if (!made) {
@@ -153,7 +153,7 @@ export class CasterPipelines {
             ...(fragment ? {fragment: {
                 module: this.module(fragment, 'any'), entryPoint: 'main',
                 constants: this.constants(fragment, {0: pass.colourFormat === 'rgba8unorm' ? HOLDS_BYTES : 0}),
-                targets: pass.colourFormat ? [{format: pass.colourFormat}] : []}} : {}),
+                targets: pass.colourFormat ? [{format: pass.colourFormat, writeMask: pass.colourWriteMask}] : []}} : {}),
             primitive: {topology: 'triangle-list', unclippedDepth: pass.clampsDepth},
             depthStencil: {format: pass.depthFormat, depthWriteEnabled: true, depthCompare: 'less-equal'},
             multisample: {count: pass.samples},

@@ -5,8 +5,10 @@
 export interface ImageRef {kind: string, options: number}
 /** A buffer, likewise. */
 export interface BufferRef {kind: string, options: number}
-/** A rectangle of a layer, texels. */
-export interface Tile {layer: number, x: number, y: number, width: number, height: number}
+/** A rectangle, texels. */
+export interface Rectangle {x: number, y: number, width: number, height: number}
+/** A rectangle of a layer. */
+export interface Tile extends Rectangle {layer: number}
 /** The shape of an image. `format`: of gnomon::MapFormat ("d32f"), or "r32ui". */
 export interface ImageShape {format: string, width: number, height: number, layers: number, levels: number, samples: number}
 /** What is drawn to. */
@@ -15,8 +17,8 @@ export interface Target {
     colourLayer: number;
     depth: ImageRef | null;
     depthLayer: number;
-    viewport: Tile;
-    scissor: Tile;
+    viewport: Rectangle;
+    scissor: Rectangle;
     /** Bit i: channel i of colour is written. */
     channels: number;
 }
@@ -33,8 +35,6 @@ export interface Binding {
     /** 0: the whole buffer. */
     bytes: number;
 }
-/** Which of a view's casters are drawn. */
-export type CasterShare = 'all' | 'still' | 'moving';
 interface Runs {constants: Uint32Array, push: Uint32Array, bindings: Binding[]}
 /** One command. */
 export type Command =
@@ -45,7 +45,7 @@ export type Command =
     | {kind: 'zeroBuffer', buffer: BufferRef}
     | {kind: 'copyTexels', from: ImageRef, area: Tile, to: ImageRef, place: Tile}
     | {kind: 'clearTarget', target: Target}
-    | {kind: 'drawMapCasters', target: Target, view: number, share: CasterShare}
+    | {kind: 'drawCasters', target: Target, view: number, casters: Uint32Array}
     | {kind: 'drawTriangle', target: Target, vertex: string, fragment: string, least: boolean} & Runs
     | {kind: 'runCompute', module: string, groups: [number, number, number]} & Runs;
 export type DrawTriangle = Extract<Command, {kind: 'drawTriangle'}>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Carries out the commands of a frame by WebGPU. It knows nothing of shadows.
-import type {Binding, BufferRef, Command, CasterShare, DrawTriangle, ImageRef, RunCompute, Target, Tile} from './commands.js';
+import type {Binding, BufferRef, Command, DrawTriangle, ImageRef, RunCompute, Target, Tile} from './commands.js';
 import {Pipelines, PUSH_BYTES, viewDimension, type Layouts, type TargetState, type TextureKind} from './pipelines.js';
 import type {Plan} from './planner.js';
 import type {View} from './layouts.js';
@@ -23,6 +23,8 @@ export interface CasterPass {
     colourFormat: GPUTextureFormat | null;
     depthFormat: GPUTextureFormat;
     samples: number;
+    /** GPUColorWrite flags: the channels that the map has of its texels. */
+    colourWriteMask: GPUColorWriteFlags;
     /** Depth only: the fragment shader writes the metric as depth; with several samples at each. */
     writesFragDepth: boolean;
     /** `unclippedDepth` of the pipeline: casters before the near plane are clamped onto it. */
@@ -140,8 +142,8 @@ export class Executor {
         case 'clearTarget':
             this.clearTarget(command.target);
             break;
-        case 'drawMapCasters':
-            this.drawMapCasters(command.target, command.view, command.share, plan!, drawCasters);
+        case 'drawCasters':
+            this.drawCasters(command.target, command.view, command.casters, plan!, drawCasters);
             break;
         case 'drawTriangle':
             this.drawTriangle(command);
@@ -160,7 +162,7 @@ export class Executor {
         this.groups.clear();
         if (made.isDepth) {
             for (let layer = 0; layer < Math.max(shape.layers, 1); ++layer) {
-                const whole = {layer, x: 0, y: 0, width: shape.width, height: shape.height};
+                const whole = {x: 0, y: 0, width: shape.width, height: shape.height};
                 this.clearTarget({colour: null, colourLayer: 0, depth: ref, depthLayer: layer, viewport: whole, scissor: whole, channels: 0xF});
             }
             this.endPass();
@@ -276,13 +278,11 @@ export class Executor {
         pass.draw(3);
     }
 
-    private drawMapCasters(target: Target, index: number, share: CasterShare, plan: Plan, drawCasters: DrawCasters): void {
+    private drawCasters(target: Target, index: number, casters: Uint32Array, plan: Plan, drawCasters: DrawCasters): void {
         const view = plan.views[index]!;
         const {colour, depth, samples} = this.stateOf(target);
-        const first = view.firstCaster + (share === 'moving' ? view.stillCasters : 0);
-        const count = share === 'still' ? view.stillCasters : view.casterCount - (share === 'moving' ? view.stillCasters : 0);
-        drawCasters({encoder: this.passOf(target), plan, view, viewIndex: index, casters: plan.casters.subarray(first, first + count),
-                     colourFormat: colour, depthFormat: depth!, samples, writesFragDepth: !colour && view.orthographic === 0,
+        drawCasters({encoder: this.passOf(target), plan, view, viewIndex: index, casters,
+                     colourFormat: colour, depthFormat: depth!, samples, colourWriteMask: target.channels, writesFragDepth: !colour && view.orthographic === 0,
                      clampsDepth: view.clampNear !== 0});
         // Pipelines of the host's must not be taken for ours, nor its bind groups.
         const keep = this.pass;
@@ -335,6 +335,7 @@ export class Executor {
         const filters = new Map<number, boolean>();
         const entries: GPUBindGroupEntry[] = [];
         const keys: string[] = [];
+        const stored = new Set<string>();
         for (const input of this.pipelines.module(module).inputs) {
             if (input.kind === 'push') {
                 continue;
@@ -344,19 +345,29 @@ export class Executor {
                 throw new GnomonError(`run ${module}`, `nothing is bound to ${input.binding}`, 'report this');
             }
             if (one.image) {
-                const image = this.resources.image(one.image);
+                let image = this.resources.image(one.image);
+                let level = one.level;
+                if (input.kind === 'storage_image' && input.access !== 'read') {
+                    // A module that has nothing to store is bound to what it stores already, which WebGPU forbids.
+                    const key = `${image.number} ${level}`;
+                    if (stored.has(key)) {
+                        image = this.resources.image({kind: 'noBlocks', options: 0});
+                        level = 0;
+                    }
+                    stored.add(key);
+                }
                 const linear = one.linear && input.sampled;
                 if (linear && /32float/.test(image.format) && !this.device.features.has('float32-filterable')) {
                     throw new GnomonError('read shadow maps', `the device does not filter maps of format ${image.shape.format}`,
                                           'set map-format=rgba16f, or ask for the feature float32-filterable');
                 }
                 kinds.set(input.binding, input.of === 'uint' ? 'uint' : linear ? 'float' : 'unfilterable-float');
-                entries.push({binding: input.binding, resource: this.resources.view(image, viewDimension(input.dimension), one.level, null)});
+                entries.push({binding: input.binding, resource: this.resources.view(image, viewDimension(input.dimension), level, null)});
                 if (input.sampled) {
                     filters.set(input.binding, linear);
                     entries.push({binding: input.binding + 16, resource: linear ? this.linear : this.nearest});
                 }
-                keys.push(`${image.number} ${one.level} ${linear}`);
+                keys.push(`${image.number} ${level} ${linear}`);
             } else {
                 const buffer = this.resources.buffer(one.buffer!);
                 entries.push({binding: input.binding, resource: {buffer, offset: one.offset, ...(one.bytes > 0 ? {size: one.bytes} : {})}});

@@ -56,6 +56,8 @@ export interface Plan extends PlanHead {
     moved: Bounds[];
     /** The picture's size. */
     sizePx: [number, number];
+    /** Of the frame's camera: depth is 1 near and 0 far. */
+    reversedZ: boolean;
 }
 
 /** The same matrix with its row of y negated: from WebGPU's clip space to Gnomon's. `m`: 16 numbers in columns. */
@@ -176,16 +178,16 @@ export class Planner {
         const {wasm} = this;
         this.last = null;
         const at = wasm.with(frameBytes(frame), room => wasm.pointer('gnomonPlan', living(this.at), writeFrame(wasm, room, frame)));
-        this.last = this.read(at, [frame.widthPx, frame.heightPx]);
+        this.last = this.read(at, frame);
         return this.last;
     }
-    private read(at: Pointer, sizePx: [number, number]): Plan {
+    private read(at: Pointer, {widthPx, heightPx, camera}: Frame): Plan {
         const {wasm} = this;
         const head = wasm.read<PlanHead & Record<'casters' | 'receivers' | 'objectIds' | 'moved', Pointer>>('PlanHead', at);
         const all = <T>(name: string, struct: string, count: number): T[] => Array.from(
             {length: count}, (_, i) => wasm.read<T>(struct, wasm.pointer(name, this.at, i)));
         return {
-            ...head, sizePx,
+            ...head, sizePx: [widthPx, heightPx], reversedZ: Boolean(camera.reversedZ ?? true),
             casters: wasm.words(head.casters, head.casterCount),
             receivers: wasm.words(head.receivers, head.receiverCount),
             objectIds: Uint16Array.from({length: head.objectIdCount}, (_, i) => wasm.data.getUint16(head.objectIds + 2 * i, true)),

@@ -24,6 +24,8 @@ export interface MaskInputs {
 export interface ShadowRendererOptions {
     /** The package's shaders: `await loadShaders()`. */
     shaders: Shaders;
+    /** Sub-pixel bits with which the device places vertices, 4 to 24; WebGPU does not tell. Default: 4, the least that there is. */
+    subPixelBits?: number;
 }
 
 /** The maps that the last `drawMaps()` drew, and those that it did not have to. */
@@ -56,7 +58,7 @@ export class ShadowRenderer {
         this.clampsDepth = device.features.has('depth-clip-control');
         this.planner = planner;
         this.recorder = new Recorder(planner, {mostLayers: device.limits.maxTextureArrayLayers,
-                                               uniformAlignment: device.limits.minUniformBufferOffsetAlignment});
+                                               uniformAlignment: device.limits.minUniformBufferOffsetAlignment}, options.subPixelBits ?? 4);
         this.executor = new Executor(device, options.shaders);
     }
 
@@ -71,10 +73,10 @@ export class ShadowRenderer {
                                   'ask for the feature, or plan with clampsDepth: renderer.clampsDepth');
         }
         return this.guarded(() => {
-            const {list, changed} = this.recorder.prepare(sizePx);
+            const list = this.recorder.prepare(sizePx);
             this.executor.begin();
             this.executor.submit(list);
-            return changed;
+            return this.recorder.changed;
         });
     }
 
@@ -86,19 +88,22 @@ export class ShadowRenderer {
     /** Records the maps that are out of date. `drawCasters` is called once for each. */
     drawMaps(encoder: GPUCommandEncoder, plan: Plan, drawCasters: DrawCasters): void {
         this.requireLast(plan);
-        this.guarded(() => this.executor.run(this.recorder.drawMaps(), encoder, plan, drawCasters));
+        // A lamp's depth z / w is the rasteriser's own.
+        const draw: DrawCasters = pass => drawCasters(
+            pass.writesFragDepth && this.planner.get('depth-metric', pass.view.options) === 'z-over-w' ? {...pass, writesFragDepth: false} : pass);
+        this.guarded(() => this.executor.run(this.recorder.drawMaps(), encoder, plan, draw));
     }
     /** Records the mask: every layer, every channel, 1 = fully lit. */
     drawMask(encoder: GPUCommandEncoder, plan: Plan, inputs: MaskInputs): void {
         this.requireLast(plan);
         this.guarded(() => {
             this.executor.setInputs(inputs);
-            this.executor.run(this.recorder.drawMask(inputs), encoder, plan, () => undefined);
+            this.executor.run(this.recorder.drawMask(inputs, plan.reversedZ), encoder, plan, () => undefined);
         });
     }
     /** The contents of maps are lost: the next `drawMaps()` draws all of them again. */
     reset(): void {
-        this.recorder.lose();
+        this.recorder.lose(false);
     }
 
     /**
@@ -118,7 +123,7 @@ export class ShadowRenderer {
     }
     /** By the last `drawMaps()`. */
     get reuse(): MapReuse {
-        return this.recorder.reuse();
+        return this.recorder.reuse;
     }
     /** Gives all textures and buffers back. */
     destroy(): void {
@@ -135,7 +140,7 @@ export class ShadowRenderer {
         try {
             return body();
         } catch (error) {
-            this.recorder.lose();
+            this.recorder.lose(true);
             throw error;
         }
     }

@@ -122,7 +122,11 @@ export class Wasm {
     words(at: Pointer, count: number): Uint32Array {
         return new Uint32Array(this.memory.buffer, at, count).slice();
     }
+    /** A text; empty for null. */
     text(at: Pointer): string {
+        if (at === 0) {
+            return '';
+        }
         const all = new Uint8Array(this.memory.buffer);
         return this.decoder.decode(all.subarray(at, all.indexOf(0, at)));
     }

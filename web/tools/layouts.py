@@ -33,6 +33,8 @@ def camel(name: str) -> str:
     return first + "".join(one.capitalize() for one in rest)
 
 
+# Of wasm/precision.cpp.
+OWN_FUNCTIONS = ("gnomonWebNormalError", "gnomonWebNormalErrorFromDepth")
 # Structs and enums that would hide a name of the language, or that src/ hands on in another form.
 OTHER_NAMES = {"GnomonError": "ErrorTexts", "GnomonBuffer": "BufferKind", "GnomonPlan": "PlanHead", "GnomonFrame": "FrameHead"}
 
@@ -135,7 +137,7 @@ def write(headers: list[Path], script: Path, check: Path, exports: Path) -> None
         lines.append(f"static_assert(sizeof({one.name}) == {one.size});")
         lines += [f"static_assert(offsetof({one.name}, {member.name}) == {member.offset});" for member in one.members]
     _keep("\n".join(lines) + "\n", check)
-    _keep("\n".join([*header.functions, "malloc", "free"]) + "\n", exports)
+    _keep("\n".join([*header.functions, *OWN_FUNCTIONS, "malloc", "free"]) + "\n", exports)
 
 
 def _keep(text: str, path: Path) -> None:

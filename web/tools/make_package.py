@@ -20,7 +20,7 @@ import shaders
 
 WEB = Path(__file__).resolve().parent.parent
 ROOT = WEB.parent
-HEADERS = [ROOT / "c/include/gnomon" / name for name in ("gnomon_data.h", "gnomon.h")]
+HEADERS = [ROOT / "c/include/gnomon" / name for name in ("gnomon_data.h", "gnomon_commands.h", "gnomon.h")]
 INSTALL = ("npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund")
 
 
