@@ -6,7 +6,7 @@ usage: check_docs.py [--write] ROOT [GNOMON]
 
 - links and pictures in every .md file lead to a file;
 - a block of README.md is what tests/docs/readme_snippet.cpp has between "README begin" and "README end", and so are one of
-  docs/c.md and examples/c_host/c_host.c;
+  docs/c.md and examples/c_host/c_host.c, and one of docs/webgpu.md and tests/web/example.mjs;
 - with the program GNOMON: the table of docs/cli.md is what its declarations make (--write puts it there), and every
   option in a `gnomon` command of a document is one of them;
 - what sources name as [drivers: NAME] are the lines of docs/drivers.md, and each line is named;
@@ -47,7 +47,8 @@ def broken_links(root: Path) -> list[str]:
 
 
 # A document, the source that is compiled, and the marks around what both have.
-SNIPPETS = [("README.md", "tests/docs/readme_snippet.cpp", "README"), ("docs/c.md", "examples/c_host/c_host.c", "docs/c.md")]
+SNIPPETS = [("README.md", "tests/docs/readme_snippet.cpp", "README"), ("docs/c.md", "examples/c_host/c_host.c", "docs/c.md"),
+            ("docs/webgpu.md", "tests/web/example.mjs", "docs/webgpu.md")]
 
 
 def snippet_differences(root: Path) -> list[str]:
@@ -55,7 +56,7 @@ def snippet_differences(root: Path) -> list[str]:
     for document, source, mark in SNIPPETS:
         text = (root / source).read_text(encoding="utf-8")
         marked = re.search(rf"^[^\n]*{mark} begin[^\n]*\n(.*?)^[^\n]*{mark} end", text, re.DOTALL | re.MULTILINE)
-        blocks = re.findall(r"```(?:c|cpp)\n(.*?)```", (root / document).read_text(encoding="utf-8"), re.DOTALL)
+        blocks = re.findall(r"```(?:c|cpp|js)\n(.*?)```", (root / document).read_text(encoding="utf-8"), re.DOTALL)
         if not marked:
             found.append(f'{source}: no lines between "{mark} begin" and "{mark} end"')
         elif not any(block.strip() == textwrap.dedent(marked.group(1)).strip() for block in blocks):

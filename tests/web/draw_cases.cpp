@@ -140,7 +140,8 @@ void writePicture(const std::string& folder, const Camera& camera)
 
 json sceneOf(const PlannedScene& scene, const Frame& frame)
 {
-    json all{{"widthPx", kScreen.width}, {"heightPx", kScreen.height}, {"camera", toJson(frame.camera)}};
+    json all{{"widthPx", kScreen.width}, {"heightPx", kScreen.height}, {"camera", toJson(frame.camera)},
+             {"subPixelBits", gpu().limits().subPixelPrecisionBits}};
     const TestMesh mesh = testMesh();
     for (const glm::vec3& p : mesh.positions) {
         all["positions"].push_back({p.x, p.y, p.z});

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws cases of cases.json by WebGPU in a page. `drawCase(name)` gives the mask's texels as hexadecimal text.
-import {CasterPipelines, loadGnomon, loadShaders, ShadowRenderer, wantedFeatures} from 'gnomon-shadows';
+import {CasterPipelines, flipY, loadGnomon, loadShaders, ShadowRenderer} from 'gnomon-shadows';
+import {makeShadows, openDevice} from './example.mjs';
 import {objectsOf, plannerOf} from './scene.mjs';
 
 const read = async name => (await fetch(`cases/${name}`)).arrayBuffer();
 const {scene, cases} = JSON.parse(new TextDecoder().decode(await read('cases.json')));
-const adapter = await navigator.gpu?.requestAdapter();
-const device = await adapter?.requestDevice({requiredFeatures: wantedFeatures(adapter)});
+const device = navigator.gpu ? await openDevice() : null;
 const gnomon = await loadGnomon();
 const shaders = await loadShaders();
 const problems = [];
@@ -39,7 +39,7 @@ const world = device && {
 async function drawCase(name, frames = 1) {
     const one = cases.find(each => each.name === name);
     const planner = plannerOf(gnomon, one.options);
-    const shadows = new ShadowRenderer(device, gnomon, planner, {shaders});
+    const shadows = new ShadowRenderer(device, gnomon, planner, {shaders, subPixelBits: scene.subPixelBits});
     const casters = new CasterPipelines(device, planner, shaders);
     const objects = objectsOf(gnomon, scene.bounds);
     const size = [scene.widthPx, scene.heightPx];
@@ -79,6 +79,25 @@ async function readMask(mask, {layers, channels}) {
     return texels;
 }
 
+/** The mask of the document's example, of the same scene: the least and the largest value, and its size. */
+async function drawExample() {
+    const things = scene.transforms.map((transform, i) => ({bounds: scene.bounds[i], transform, meshes: i === 0 ? world.mesh.ground : world.mesh.box}));
+    const shadows = await makeShadows(device, things);
+    let texels;
+    for (let index = 0; index < 2; ++index) {
+        const encoder = device.createCommandEncoder();
+        const mask = shadows.draw(encoder, {index, eye: scene.camera.eyeWs, clipFromWorld: flipY(scene.camera.clipFromWorld), depth: world.depth,
+                                            sun: cases[0].lights[0].directionWs});
+        device.queue.submit([encoder.finish()]);
+        texels = await readMask(mask, {layers: 1, channels: 1});
+        shadows.move(1, scene.bounds[1]);
+    }
+    if (problems.length > 0) {
+        throw new Error(problems.splice(0).join('\n'));
+    }
+    return [Math.min(...texels), Math.max(...texels), texels.length];
+}
+
 /** The message with which these options are refused. */
 function refusal(options) {
     const planner = plannerOf(gnomon, options);
@@ -96,4 +115,4 @@ function refusal(options) {
     return '';
 }
 
-Object.assign(globalThis, {drawCase, refusal, hasDevice: Boolean(device), isReady: true});
+Object.assign(globalThis, {drawCase, drawExample, refusal, hasDevice: Boolean(device), isReady: true});

@@ -109,6 +109,9 @@ class Web(unittest.TestCase):
                 self.assertEqual(drawn["reuse"]["drawn"] + drawn["reuse"]["keptDrawn"], 0, "what stands still is drawn again")
         self.assertEqual(self.browser.problems, [])
 
+    def test_the_example_of_the_document_draws(self):
+        self.assertEqual(self.browser.run("drawExample()"), [0, 255, 160 * 90])
+
     def test_a_check_can_fail(self):
         shape = (160, 90, 1, 1)
         folder = self.folder / "cases"
