@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames and masks that the npm package is held to. usage: web_cases FOLDER
 //
-// Writes cases.json: the scene of boxes, its camera, lights and options by case, and frames whose plans are numbers alone;
+// Writes cases.json: the scene of boxes, its camera, lights and options by case; planned.json: frames and their plans;
 // depth.bin (float), normals.bin (two floats), and for each case NAME.bin, the mask by the Vulkan backend, and NAME.json, its plan.
 #include "option_steps.h"
 #include "planned_scene.h"
@@ -107,6 +107,17 @@ json toJson(const Light& light)
             {"radiusM", light.radius_m}};
 }
 
+/// All options, as Planner.set() takes them.
+json settingsOf(const char* line)
+{
+    const ShadowOptions options = optionsFrom(line);
+    json settings = json::object();
+    for (const OptionRow& row : optionTable()) {
+        settings[std::string(row.key)] = textOf(row, row.get(options));
+    }
+    return settings;
+}
+
 json toJson(std::span<const Light> lights)
 {
     json all = json::array();
@@ -124,6 +135,12 @@ json toJson(const Aabb& box)
 void write(const std::string& path, const void* data, std::size_t bytes)
 {
     std::ofstream(path, std::ios::binary).write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
+}
+
+void writeJson(const std::string& path, const json& value)
+{
+    const std::string text = value.dump();
+    write(path, text.data(), text.size());
 }
 
 void writePicture(const std::string& folder, const Camera& camera)
@@ -188,7 +205,7 @@ json plannedFrames(const char* options)
         }
         frames.push_back(one);
     }
-    return {{"options", options}, {"frames", frames}};
+    return {{"options", options}, {"settings", settingsOf(options)}, {"frames", frames}};
 }
 
 void drawCases(const std::string& folder)
@@ -211,14 +228,15 @@ void drawCases(const std::string& folder)
         write(folder + "/" + one.name + ".bin", mask.data(), mask.size());
         const std::string text = gnomon::toJson(plan);
         write(folder + "/" + one.name + ".json", text.data(), text.size());
-        all["cases"].push_back({{"name", one.name}, {"options", one.options}, {"lights", toJson(lights)}, {"exact", one.exact},
+        all["cases"].push_back({{"name", one.name}, {"settings", settingsOf(one.options)}, {"lights", toJson(lights)}, {"exact", one.exact},
                                 {"layers", plan.mask_layers}, {"channels", maskChannelCount(plan)}});
     }
+    writeJson(folder + "/cases.json", all);
+    json planned = json::array();
     for (const char* options : kPlanned) {
-        all["planned"].push_back(plannedFrames(options));
+        planned.push_back(plannedFrames(options));
     }
-    const std::string text = all.dump();
-    write(folder + "/cases.json", text.data(), text.size());
+    writeJson(folder + "/planned.json", planned);
 }
 
 } // namespace

@@ -38,7 +38,7 @@ const world = device && {
 /** The mask after `frames` frames of the same picture. */
 async function drawCase(name, frames = 1) {
     const one = cases.find(each => each.name === name);
-    const planner = plannerOf(gnomon, one.options);
+    const planner = plannerOf(gnomon, one.settings);
     const shadows = new ShadowRenderer(device, gnomon, planner, {shaders, subPixelBits: scene.subPixelBits});
     const casters = new CasterPipelines(device, planner, shaders);
     const objects = objectsOf(gnomon, scene.bounds);

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scene of cases.json (draw_cases.cpp), planned: what node and the browser have in common.
 
-/** A planner with the options of a line such as "filter=pcf map-size=64". */
-export function plannerOf(gnomon, line) {
+/** A planner with options by their keys. */
+export function plannerOf(gnomon, settings) {
     const planner = gnomon.makePlanner();
-    for (const setting of line.split(' ')) {
-        const [key, value] = setting.split('=');
-        planner.set(key, value);
-    }
+    Object.entries(settings).forEach(([key, value]) => planner.set(key, value));
     return planner;
 }
 

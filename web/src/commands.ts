@@ -41,7 +41,7 @@ export type Command =
     | {kind: 'dropOptions', options: number}
     | {kind: 'makeImage', image: ImageRef, shape: ImageShape, keeps: boolean}
     | {kind: 'makeBuffer', buffer: BufferRef, bytes: number, copies: number}
-    | {kind: 'writeBuffer', buffer: BufferRef, offset: number, data: Uint32Array}
+    | {kind: 'writeBuffer', buffer: BufferRef, offset: number, data: Uint32Array<ArrayBuffer>}
     | {kind: 'zeroBuffer', buffer: BufferRef}
     | {kind: 'copyTexels', from: ImageRef, area: Tile, to: ImageRef, place: Tile}
     | {kind: 'clearTarget', target: Target}

@@ -126,12 +126,9 @@ export class Executor {
         case 'makeBuffer':
             this.makeBuffer(command.buffer, command.bytes, command.copies);
             break;
-        case 'writeBuffer': {
-            this.endPass();
-            const {buffer, offset} = this.uploads.put(command.data);
-            this.encoder!.copyBufferToBuffer(buffer, offset, this.resources.buffer(command.buffer), command.offset, command.data.byteLength);
+        case 'writeBuffer': // no list writes what its commands have read before
+            this.device.queue.writeBuffer(this.resources.buffer(command.buffer), command.offset, command.data);
             break;
-        }
         case 'zeroBuffer':
             this.endPass();
             this.encoder!.clearBuffer(this.resources.buffer(command.buffer));

@@ -113,9 +113,9 @@ function targetOf(raw: Raw): Target {
             viewport: rectangleOf(raw.viewport), scissor: rectangleOf(raw.scissor), channels: raw.channels};
 }
 
-function commandOf(wasm: Wasm, raw: Raw, words: Uint32Array, bindings: Binding[]): Command {
-    const part = <T extends {slice(first: number, end: number): T}>(list: T, [first, count]: number[]): T => list.slice(first!, first! + count!);
-    const runs = () => ({constants: part(words, raw.constants), push: part(words, raw.push),
+function commandOf(wasm: Wasm, raw: Raw, words: Uint32Array<ArrayBuffer>, bindings: Binding[]): Command {
+    const wordsOf = ([first, count]: number[]) => words.slice(first!, first! + count!);
+    const runs = () => ({constants: wordsOf(raw.constants), push: wordsOf(raw.push),
                          bindings: bindings.slice(raw.bindings[0], raw.bindings[0]! + raw.bindings[1]!)});
     switch (raw.kind) {
     case CommandKind.dropOptions:
@@ -126,7 +126,7 @@ function commandOf(wasm: Wasm, raw: Raw, words: Uint32Array, bindings: Binding[]
     case CommandKind.makeBuffer:
         return {kind: 'makeBuffer', buffer: bufferOf(raw.buffer), bytes: Number(raw.bytes), copies: Number(raw.copies)};
     case CommandKind.writeBuffer:
-        return {kind: 'writeBuffer', buffer: bufferOf(raw.buffer), offset: Number(raw.offset), data: part(words, raw.data)};
+        return {kind: 'writeBuffer', buffer: bufferOf(raw.buffer), offset: Number(raw.offset), data: wordsOf(raw.data)};
     case CommandKind.zeroBuffer:
         return {kind: 'zeroBuffer', buffer: bufferOf(raw.buffer)};
     case CommandKind.copyTexels:

@@ -12,7 +12,7 @@ export class GnomonError extends Error {
     readonly todo: string;
 
     constructor(tried: string, found: string, todo = '') {
-        super(`cannot ${tried}: ${found}${todo ? `; ${todo}` : ''}`);
+        super(`${tried}: ${found}${todo ? `; ${todo}` : ''}`);
         this.name = 'GnomonError';
         this.tried = tried;
         this.found = found;
@@ -119,8 +119,8 @@ export class Wasm {
         return new Uint8Array(this.memory.buffer, at, count);
     }
     /** A copy of numbers. */
-    words(at: Pointer, count: number): Uint32Array {
-        return new Uint32Array(this.memory.buffer, at, count).slice();
+    words(at: Pointer, count: number): Uint32Array<ArrayBuffer> {
+        return new Uint32Array(this.memory.buffer as ArrayBuffer, at, count).slice();
     }
     /** A text; empty for null. */
     text(at: Pointer): string {
