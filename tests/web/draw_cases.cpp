@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames and masks that the npm package is held to. usage: web_cases FOLDER
+// Frames and masks that the npm package is held to. usage: web_cases FOLDER [exact]
 //
+// "exact": those cases alone that are compared exactly, for drivers that compile the others for minutes.
 // Writes cases.json: the scene of boxes, its camera, lights and options by case; planned.json: frames and their plans;
 // depth.bin (float), normals.bin (two floats), and for each case NAME.bin, the mask by the Vulkan backend, and NAME.json, its plan.
 #include "option_steps.h"
@@ -42,11 +43,11 @@ constexpr WebCase kCases[] = {
     {"pcss_spot", "map-size=256 partition=single filter=pcss", "spot"},
     {"raymarch_sun", "map-size=256 partition=single filter=raymarch", "sun"},
     {"vsm_sun", "map-size=256 partition=single filter=vsm", "sun"},
-    {"lvsm_sun", "map-size=256 partition=single filter=lvsm", "sun"},
-    {"lloyd_sun", "map-size=256 partition=single filter=lvsm lvsm.placement=lloyd", "sun"},
+    {"lvsm_sun", "map-size=256 partition=single filter=lvsm map-format=rgba32f", "sun"},
+    {"lloyd_sun", "map-size=256 partition=single filter=lvsm lvsm.placement=lloyd map-format=rgba32f", "sun"},
     {"esm_cascades", "map-size=256 partition=cascades filter=esm", "sun"},
     {"evsm_spot", "map-size=256 partition=single filter=evsm", "spot"},
-    {"msm_lamp", "map-size=256 partition=cube filter=msm", "lamp"},
+    {"msm_lamp", "map-size=256 partition=cube filter=msm map-format=rgba32f", "lamp"},
     {"unblurred", "map-size=256 partition=single filter=vsm blur=none msaa=1", "sun"},
     {"mip_levels", "map-size=256 partition=single filter=evsm map-sampling=trilinear", "sun"},
     {"blur", "map-size=256 partition=single filter=hard soften=blur", "sun"},
@@ -107,13 +108,16 @@ json toJson(const Light& light)
             {"radiusM", light.radius_m}};
 }
 
-/// All options, as Planner.set() takes them.
+/// The options that are not the defaults, as Planner.set() takes them.
 json settingsOf(const char* line)
 {
     const ShadowOptions options = optionsFrom(line);
     json settings = json::object();
     for (const OptionRow& row : optionTable()) {
-        settings[std::string(row.key)] = textOf(row, row.get(options));
+        const std::string value = textOf(row, row.get(options));
+        if (value != textOf(row, row.get(ShadowOptions{}))) {
+            settings[std::string(row.key)] = value;
+        }
     }
     return settings;
 }
@@ -208,7 +212,7 @@ json plannedFrames(const char* options)
     return {{"options", options}, {"settings", settingsOf(options)}, {"frames", frames}};
 }
 
-void drawCases(const std::string& folder)
+void drawCases(const std::string& folder, bool exact_alone)
 {
     PlannedScene scene(gpu(), kScreen);
     Drawing drawing(gpu(), scene.mesh());
@@ -216,6 +220,9 @@ void drawCases(const std::string& folder)
     writePicture(folder, seen.camera);
     json all{{"scene", sceneOf(scene, seen)}};
     for (const WebCase& one : kCases) {
+        if (exact_alone && !one.exact) {
+            continue;
+        }
         const std::vector<Light> lights = lightsOf(one.lights);
         Planner planner(optionsFrom(one.options));
         const Plan plan = planner.plan(scene.frameOf(lights));
@@ -244,12 +251,12 @@ void drawCases(const std::string& folder)
 
 int main(int count, char** arguments)
 {
-    if (count != 2) {
-        std::fprintf(stderr, "usage: web_cases FOLDER\n");
+    if (count != 2 && !(count == 3 && std::string(arguments[2]) == "exact")) {
+        std::fprintf(stderr, "usage: web_cases FOLDER [exact]\n");
         return 2;
     }
     try {
-        gnomon::test::drawCases(arguments[1]);
+        gnomon::test::drawCases(arguments[1], count == 3);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "web_cases: %s\n", error.what());
         return 1;

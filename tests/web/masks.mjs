@@ -4,8 +4,12 @@ import {CasterPipelines, flipY, loadGnomon, loadShaders, ShadowRenderer} from 'g
 import {makeShadows, openDevice} from './example.mjs';
 import {objectsOf, plannerOf} from './scene.mjs';
 
-const read = async name => (await fetch(`cases/${name}`)).arrayBuffer();
-const {scene, cases} = JSON.parse(new TextDecoder().decode(await read('cases.json')));
+const read = async name => (await fetch(name)).arrayBuffer();
+const told = {};
+for (const folder of ['cases', 'exact']) {
+    told[folder] = JSON.parse(new TextDecoder().decode(await read(`${folder}/cases.json`)));
+}
+const {scene, cases} = told['cases'];
 const device = navigator.gpu ? await openDevice() : null;
 const gnomon = await loadGnomon();
 const shaders = await loadShaders();
@@ -31,15 +35,15 @@ const world = device && {
         const part = (firstIndex, indexCount, baseVertex) => [{positions, indices, indexFormat: 'uint32', firstIndex, indexCount, baseVertex}];
         return {ground: part(0, 6, 0), box: part(6, 36, 4)};
     })(),
-    depth: textureOf('r32float', 4, await read('depth.bin')),
-    normal: textureOf('rg32float', 8, await read('normals.bin')),
+    depth: textureOf('r32float', 4, await read('cases/depth.bin')),
+    normal: textureOf('rg32float', 8, await read('cases/normals.bin')),
 };
 
-/** The mask after `frames` frames of the same picture. */
-async function drawCase(name, frames = 1) {
-    const one = cases.find(each => each.name === name);
+/** The mask after `frames` frames of the same picture, on a device that places vertices as exactly as the folder's does. */
+async function drawCase(name, frames, folder) {
+    const one = told[folder].cases.find(each => each.name === name);
     const planner = plannerOf(gnomon, one.settings);
-    const shadows = new ShadowRenderer(device, gnomon, planner, {shaders, subPixelBits: scene.subPixelBits});
+    const shadows = new ShadowRenderer(device, gnomon, planner, {shaders, subPixelBits: told[folder].scene.subPixelBits});
     const casters = new CasterPipelines(device, planner, shaders);
     const objects = objectsOf(gnomon, scene.bounds);
     const size = [scene.widthPx, scene.heightPx];
@@ -48,7 +52,7 @@ async function drawCase(name, frames = 1) {
         const plan = planner.plan({index, camera: scene.camera, widthPx: size[0], heightPx: size[1], objects, lights: one.lights});
         shadows.prepare(plan, size);
         const encoder = device.createCommandEncoder();
-        shadows.draw(encoder, plan, {depth: world.depth, normal: world.normal},
+        shadows.draw(encoder, plan, {depth: world.depth, normal: world.normal, normalRounding: 2 ** -16},
                      pass => casters.draw(pass, object => object === 0 ? world.mesh.ground : world.mesh.box, object => scene.transforms[object]));
         device.queue.submit([encoder.finish()]);
         reuse = shadows.reuse;

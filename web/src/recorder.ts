@@ -56,10 +56,10 @@ export class Recorder {
             return this.read(wasm.pointer('gnomonRecordMask', this.at, this.planner.at, images, at)).commands;
         });
     }
-    private precisionOf({depth, normal}: MaskInputs, reversedZ: boolean): object {
+    private precisionOf({depth, normal, normalRounding}: MaskInputs, reversedZ: boolean): object {
         const isFloat = depth.format === 'r32float' || depth.format.startsWith('depth32float');
         const depthRounding = depth.format === 'depth16unorm' ? 2 ** -17 : isFloat && reversedZ ? 0 : 2 ** -25;
-        const normalErrorRad = normal ? this.wasm.call('gnomonWebNormalError', ROUNDING[normal.format] ?? 2 ** -8)
+        const normalErrorRad = normal ? this.wasm.call('gnomonWebNormalError', normalRounding ?? ROUNDING[normal.format] ?? 2 ** -8)
                                       : this.wasm.call('gnomonWebNormalErrorFromDepth', this.subPixelBits);
         return {subPixelBits: this.subPixelBits, depthRounding, normalErrorRad};
     }

@@ -14,6 +14,8 @@ export interface MaskInputs {
     depth: GPUTexture;
     /** Geometric world-space normals, octahedral in two channels of -1 to 1 (rg16float, rg32float, rg8snorm). Else taken from depth. */
     normal?: GPUTexture;
+    /** By how much a channel of `normal` is off at most, where it was coarser than the texture is. Default: by the texture's format. */
+    normalRounding?: number;
     /** For smooth-shaded meshes: the result of gnomonSmoothEncode() in rgba16float. */
     smooth?: GPUTexture;
     /** Index of the object in the set + 1, in r32uint, 0 where a receiver wants no shadow at all. */
