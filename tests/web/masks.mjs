@@ -39,32 +39,97 @@ const world = device && {
     normal: textureOf('rg32float', 8, await read('cases/normals.bin')),
 };
 
+/** A renderer of the scene, whose first box may be moved. `meshesOf`: of an object. */
+function makeSide(settings, subPixelBits, meshesOf = object => object === 0 ? world.mesh.ground : world.mesh.box) {
+    const planner = plannerOf(gnomon, settings);
+    const shadows = new ShadowRenderer(device, gnomon, planner, {shaders, subPixelBits});
+    const casters = new CasterPipelines(device, planner, shaders);
+    const objects = gnomon.makeObjects();
+    const names = scene.bounds.map((box, i) => objects.add(box, {dynamic: i === 1}));
+    const transforms = scene.transforms.map(rows => [...rows]);
+    const size = [scene.widthPx, scene.heightPx];
+    let index = 0;
+    return {
+        move(x) {
+            transforms[1][3] += x;
+            const {min, max} = scene.bounds[1];
+            const moved = [min, max].map(corner => [corner[0] + transforms[1][3] - scene.transforms[1][3], corner[1], corner[2]]);
+            objects.move(names[1], {min: moved[0], max: moved[1]});
+        },
+        draw(lights) {
+            const plan = planner.plan({index: index++, camera: scene.camera, widthPx: size[0], heightPx: size[1], objects, lights});
+            shadows.prepare(plan, size);
+            const encoder = device.createCommandEncoder();
+            shadows.draw(encoder, plan, {depth: world.depth, normal: world.normal, normalRounding: 2 ** -16},
+                         pass => casters.draw(pass, meshesOf, object => transforms[object]));
+            device.queue.submit([encoder.finish()]);
+            return {layers: plan.maskLayers, channels: plan.maskChannels};
+        },
+        mask: shape => readMask(shadows.mask, shape),
+        get reuse() {
+            return shadows.reuse;
+        },
+        end() {
+            shadows.destroy();
+            planner.free();
+            objects.free();
+            if (problems.length > 0) {
+                throw new Error(problems.splice(0).join('\n'));
+            }
+        },
+    };
+}
+
 /** The mask after `frames` frames of the same picture, on a device that places vertices as exactly as the folder's does. */
 async function drawCase(name, frames, folder) {
     const one = told[folder].cases.find(each => each.name === name);
-    const planner = plannerOf(gnomon, one.settings);
-    const shadows = new ShadowRenderer(device, gnomon, planner, {shaders, subPixelBits: told[folder].scene.subPixelBits});
-    const casters = new CasterPipelines(device, planner, shaders);
-    const objects = objectsOf(gnomon, scene.bounds);
-    const size = [scene.widthPx, scene.heightPx];
-    let reuse = null;
-    for (let index = 0; index < frames; ++index) {
-        const plan = planner.plan({index, camera: scene.camera, widthPx: size[0], heightPx: size[1], objects, lights: one.lights});
-        shadows.prepare(plan, size);
-        const encoder = device.createCommandEncoder();
-        shadows.draw(encoder, plan, {depth: world.depth, normal: world.normal, normalRounding: 2 ** -16},
-                     pass => casters.draw(pass, object => object === 0 ? world.mesh.ground : world.mesh.box, object => scene.transforms[object]));
-        device.queue.submit([encoder.finish()]);
-        reuse = shadows.reuse;
+    const side = makeSide(one.settings, told[folder].scene.subPixelBits);
+    for (let i = 0; i < frames; ++i) {
+        side.draw(one.lights);
     }
-    const texels = await readMask(shadows.mask, one);
-    shadows.destroy();
-    planner.free();
-    objects.free();
-    if (problems.length > 0) {
-        throw new Error(problems.splice(0).join('\n'));
-    }
+    const texels = await side.mask(one);
+    const {reuse} = side;
+    side.end();
     return {texels: Array.from(texels, byte => byte.toString(16).padStart(2, '0')).join(''), reuse};
+}
+
+function farthest(a, b) {
+    return a.length === b.length ? a.reduce((most, one, i) => Math.max(most, Math.abs(one - b[i])), 0) : 256;
+}
+
+/**
+ * Frames in which a box moves and lights come, and the last of them drawn from nothing: by how much their masks differ, and which maps
+ * the last frame drew.
+ */
+async function drawOn(settings, names) {
+    const lights = told['cases'].cases.find(each => each.name === 'three_lights').lights;
+    const [kept, anew] = [makeSide(settings, 4), makeSide(settings, 4)];
+    kept.draw(lights.slice(0, 1));
+    for (let i = 0; i < 3; ++i) {
+        kept.move(0.2);
+        anew.move(0.2);
+        kept.draw(lights.slice(0, names));
+    }
+    const {reuse} = kept;
+    const masks = [await kept.mask(kept.draw(lights.slice(0, names))), await anew.mask(anew.draw(lights.slice(0, names)))];
+    kept.end();
+    anew.end();
+    return {apart: farthest(...masks), reuse};
+}
+
+/** By how much the masks differ of boxes whose texture is clear everywhere, and of no boxes. */
+async function drawHoles() {
+    const texture = device.createTexture({size: [1, 1], format: 'rgba8unorm', usage: GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.COPY_DST});
+    const uvs = bufferOf(new Float32Array(2 * scene.positions.length), GPUBufferUsage.VERTEX);
+    const box = world.mesh.box.map(mesh => ({...mesh, holes: {uvs, texture: texture.createView()}}));
+    const {settings, lights} = told['cases'].cases[0];
+    const masks = [];
+    for (const meshes of [box, [], world.mesh.box]) {
+        const side = makeSide(settings, 4, object => object === 0 ? world.mesh.ground : meshes);
+        masks.push(await side.mask(side.draw(lights)));
+        side.end();
+    }
+    return [farthest(masks[0], masks[1]), farthest(masks[0], masks[2])];
 }
 
 async function readMask(mask, {layers, channels}) {
@@ -119,4 +184,4 @@ function refusal(options) {
     return '';
 }
 
-Object.assign(globalThis, {drawCase, drawExample, refusal, hasDevice: Boolean(device), isReady: true});
+Object.assign(globalThis, {drawCase, drawExample, drawHoles, drawOn, refusal, hasDevice: Boolean(device), isReady: true});

@@ -294,7 +294,7 @@ export class Executor {
         const pass = this.passOf(command.target);
         pass.setPipeline(pipeline);
         pass.setBindGroup(0, group);
-        this.setPush(pass, layouts, command.push);
+        this.setPush(pass, command.push);
         pass.draw(3);
     }
     private runCompute(command: RunCompute): void {
@@ -304,16 +304,16 @@ export class Executor {
         const pass = this.encoder!.beginComputePass({label: `gnomon ${command.module}`});
         pass.setPipeline(this.pipelines.compute(command.module, command.constants, layouts, stores?.shape.format ?? 'any'));
         pass.setBindGroup(0, group);
-        this.setPush(pass, layouts, command.push);
+        this.setPush(pass, command.push);
         pass.dispatchWorkgroups(...command.groups);
         pass.end();
     }
-    private setPush(pass: GPURenderPassEncoder | GPUComputePassEncoder, layouts: Layouts, words: Uint32Array): void {
+    private setPush(pass: GPURenderPassEncoder | GPUComputePassEncoder, words: Uint32Array): void {
         const {buffer, offset} = this.uploads.put(words);
         const key = `push ${this.uploads.number}`;
         let group = this.groups.get(key);
         if (!group) {
-            group = this.device.createBindGroup({layout: layouts.push, entries: [{binding: 0, resource: {buffer, size: PUSH_BYTES}}]});
+            group = this.device.createBindGroup({layout: this.pipelines.push, entries: [{binding: 0, resource: {buffer, size: PUSH_BYTES}}]});
             this.groups.set(key, group);
         }
         pass.setBindGroup(3, group, [offset]);

@@ -3,8 +3,8 @@
 import type {ShaderModule, Shaders} from './shaders.js';
 import {GnomonError} from './wasm.js';
 
-/** A pipeline's bindings: group 0, and push data in group 3. */
-export interface Layouts {group0: GPUBindGroupLayout, push: GPUBindGroupLayout, all: GPUPipelineLayout}
+/** A pipeline's bindings: group 0, and push data in group 3, which is the same for all. */
+export interface Layouts {group0: GPUBindGroupLayout, all: GPUPipelineLayout}
 /** What a bound texture is: part of a pipeline's layout. */
 export type TextureKind = 'float' | 'unfilterable-float' | 'uint';
 
@@ -16,11 +16,16 @@ export class Pipelines {
     private readonly shaders: Shaders;
     private readonly made = new Map<string, unknown>();
     private readonly empty: GPUBindGroupLayout;
+    /** Of push data. */
+    readonly push: GPUBindGroupLayout;
 
     constructor(device: GPUDevice, shaders: Shaders) {
         this.device = device;
         this.shaders = shaders;
         this.empty = device.createBindGroupLayout({entries: []});
+        const {VERTEX, FRAGMENT, COMPUTE} = GPUShaderStage;
+        this.push = device.createBindGroupLayout({label: 'gnomon push data', entries: [
+            {binding: 0, visibility: VERTEX | FRAGMENT | COMPUTE, buffer: {type: 'uniform', hasDynamicOffset: true}}]});
     }
 
     module(name: string): ShaderModule {
@@ -90,11 +95,8 @@ export class Pipelines {
                 }
             }
             const group0 = this.device.createBindGroupLayout({label: `gnomon ${name}`, entries});
-            const push = this.device.createBindGroupLayout({
-                entries: [{binding: 0, visibility: visibility | (visibility === GPUShaderStage.FRAGMENT ? GPUShaderStage.VERTEX : 0),
-                           buffer: {type: 'uniform', hasDynamicOffset: true}}]});
-            const all = this.device.createPipelineLayout({bindGroupLayouts: [group0, this.empty, this.empty, push]});
-            return {group0, push, all};
+            const all = this.device.createPipelineLayout({bindGroupLayouts: [group0, this.empty, this.empty, this.push]});
+            return {group0, all};
         });
     }
 
