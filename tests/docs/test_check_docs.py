@@ -17,6 +17,8 @@ TREE = {
                                    "    // README end\n}\n",
     "docs/c.md": "```c\nint c;\n```\n",
     "examples/c_host/c_host.c": "// docs/c.md begin\nint c;\n// docs/c.md end\n",
+    "docs/webgpu.md": "```js\nlet d;\n```\n",
+    "tests/web/example.mjs": "// docs/webgpu.md begin\nlet d;\n// docs/webgpu.md end\n",
     "docs/cli.md": "`gnomon render rts --map-size 512 -o a.png`\n\n<!-- options begin -->\n"
                    "| option | default | what it is | for |\n|---|---|---|---|\n"
                    "| `--map-size` | `2048` | side (texels; 16 to 16384) | render, plan |\n"

@@ -3,7 +3,8 @@
 //
 // "exact": those cases alone that are compared exactly, for drivers that compile the others for minutes.
 // Writes cases.json: the scene of boxes, its camera, lights and options by case; planned.json: frames and their plans;
-// depth.bin (float), normals.bin (two floats), and for each case NAME.bin, the mask by the Vulkan backend, and NAME.json, its plan.
+// depth.bin (float), normals.bin (two floats), and for each case NAME.bin, the mask by the Vulkan backend, and
+// NAME.json, its plan.
 #include "option_steps.h"
 #include "planned_scene.h"
 
@@ -53,8 +54,9 @@ constexpr WebCase kCases[] = {
     {"blur", "map-size=256 partition=single filter=hard soften=blur", "sun"},
 };
 // Plans alone.
-constexpr const char* kPlanned[] = {"partition=cascades filter=pcf", "partition=auto filter=auto", "partition=multi filter=msm fit=lispsm",
-                                    "partition=virtual filter=raymarch", "partition=cube filter=evsm"};
+constexpr const char* kPlanned[] = {"partition=cascades filter=pcf", "partition=auto filter=auto",
+                                    "partition=multi filter=msm fit=lispsm", "partition=virtual filter=raymarch",
+                                    "partition=cube filter=evsm"};
 constexpr int kFramesOfEach = 40;
 
 Light lightCalled(const std::string& name)
@@ -93,7 +95,9 @@ json toJson(const glm::dvec3& v)
 json toJson(const Camera& camera)
 {
     const double* m = &camera.clip_from_world[0][0];
-    return {{"eyeWs", toJson(camera.eye_ws)}, {"clipFromWorld", std::vector<double>(m, m + 16)}, {"reversedZ", camera.reversed_z ? 1 : 0}};
+    return {{"eyeWs", toJson(camera.eye_ws)},
+            {"clipFromWorld", std::vector<double>(m, m + 16)},
+            {"reversedZ", camera.reversed_z ? 1 : 0}};
 }
 
 json toJson(const Light& light)
@@ -161,7 +165,9 @@ void writePicture(const std::string& folder, const Camera& camera)
 
 json sceneOf(const PlannedScene& scene, const Frame& frame)
 {
-    json all{{"widthPx", kScreen.width}, {"heightPx", kScreen.height}, {"camera", toJson(frame.camera)},
+    json all{{"widthPx", kScreen.width},
+             {"heightPx", kScreen.height},
+             {"camera", toJson(frame.camera)},
              {"subPixelBits", gpu().limits().subPixelPrecisionBits}};
     const TestMesh mesh = testMesh();
     for (const glm::vec3& p : mesh.positions) {
@@ -195,11 +201,13 @@ json plannedFrames(const char* options)
         const double angle = 0.05 * i;
         Frame frame;
         frame.index = static_cast<std::uint64_t>(i);
-        frame.camera = makeCamera({12.0 * std::cos(angle), 5.0 + 0.1 * i, 12.0 * std::sin(angle)}, {0.0, 0.5, 0.0}, 16.0 / 9.0);
+        frame.camera =
+            makeCamera({12.0 * std::cos(angle), 5.0 + 0.1 * i, 12.0 * std::sin(angle)}, {0.0, 0.5, 0.0}, 16.0 / 9.0);
         frame.size_px = {kScreen.width, kScreen.height};
         frame.lights = lights;
         frame.objects = &objects;
-        const Aabb box{{-1.0F + 0.05F * static_cast<float>(i), 0.0F, -1.0F}, {1.0F + 0.05F * static_cast<float>(i), 2.0F, 1.0F}};
+        const Aabb box{{-1.0F + 0.05F * static_cast<float>(i), 0.0F, -1.0F},
+                       {1.0F + 0.05F * static_cast<float>(i), 2.0F, 1.0F}};
         if (i % 3 == 1) {
             (void)objects.update(moving, box);
         }
@@ -235,8 +243,12 @@ void drawCases(const std::string& folder, bool exact_alone)
         write(folder + "/" + one.name + ".bin", mask.data(), mask.size());
         const std::string text = gnomon::toJson(plan);
         write(folder + "/" + one.name + ".json", text.data(), text.size());
-        all["cases"].push_back({{"name", one.name}, {"settings", settingsOf(one.options)}, {"lights", toJson(lights)}, {"exact", one.exact},
-                                {"layers", plan.mask_layers}, {"channels", maskChannelCount(plan)}});
+        all["cases"].push_back({{"name", one.name},
+                                {"settings", settingsOf(one.options)},
+                                {"lights", toJson(lights)},
+                                {"exact", one.exact},
+                                {"layers", plan.mask_layers},
+                                {"channels", maskChannelCount(plan)}});
     }
     writeJson(folder + "/cases.json", all);
     json planned = json::array();

@@ -31,7 +31,10 @@ to_chars_result write(char* first, char* last, T value)
     constexpr int kMostDigits = 17;
     std::array<char, 400> text{};
     if (!isfinite(value)) {
-        snprintf(text.data(), text.size(), "%s", isnan(value) ? (signbit(value) ? "-nan" : "nan") : value < 0 ? "-inf" : "inf");
+        snprintf(text.data(), text.size(), "%s",
+                 isnan(value) ? (signbit(value) ? "-nan" : "nan")
+                 : value < 0  ? "-inf"
+                              : "inf");
     } else {
         int digits = 0;
         do {
@@ -58,7 +61,8 @@ from_chars_result readAll(const char* first, const char* last, T& value)
     const string_view given(first, static_cast<size_t>(last - first));
     const size_t sign = given.starts_with('-') ? 1 : 0;
     const string_view begin = given.substr(sign);
-    const bool is_word = begin.starts_with("inf") || begin.starts_with("nan") || begin.starts_with("INF") || begin.starts_with("NAN");
+    const bool is_word =
+        begin.starts_with("inf") || begin.starts_with("nan") || begin.starts_with("INF") || begin.starts_with("NAN");
     const bool is_number = !begin.empty() && (is_word || begin[0] == '.' || (begin[0] >= '0' && begin[0] <= '9'));
     if (!is_number) {
         return {first, errc::invalid_argument};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// C++20 that the standard library of Debian's Emscripten (libc++ 13) lacks: algorithms of std::ranges, and numbers as text
-// (newer_std.cpp). The build for WebAssembly includes it before each source. A newer library has all of it, and then this is empty.
+// C++20 that the standard library of Debian's Emscripten (libc++ 13) lacks: algorithms of std::ranges, and numbers as
+// text (newer_std.cpp). The build for WebAssembly includes it before each source. A newer library has all of it, and
+// then this is empty.
 #pragma once
 
 #include <version>
@@ -45,7 +46,9 @@ constexpr auto gnomonProjected(Compare& compare, First& first, Second& second)
 template <class Predicate, class Projection>
 constexpr auto gnomonProjected(Predicate& predicate, Projection& projection)
 {
-    return [&](auto&& a) { return std::invoke(predicate, std::invoke(projection, static_cast<decltype(a)>(a))); };
+    return [&](auto&& a) {
+        return std::invoke(predicate, std::invoke(projection, static_cast<decltype(a)>(a)));
+    };
 }
 
 #define GNOMON_OF_PREDICATE(NAME)                                                                                      \

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds on the errors of a host's normals (gnomon/pack/filter_rule.h), for src/recorder.ts: the C interface takes them as numbers.
+// Bounds on the errors of a host's normals (gnomon/pack/filter_rule.h), for src/recorder.ts: the C interface takes them
+// as numbers.
 #include <gnomon/pack/filter_rule.h>
 
 extern "C" {
