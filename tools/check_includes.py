@@ -85,6 +85,7 @@ RULES = [
     ("gl/include/", {"std", "glm", "core-geometry", "core-public", "pack-public"}, "a public header shows nothing private"),
     ("gl/", STD | {"core-geometry", "core-public", "pack-public", "gl-public", "glm", "graphics", "shared", "spirv"},
      "a backend knows core and pack, and no other backend"),
+    ("web/", STD | {"pack-public"}, "what the npm package adds is made of public headers"),
     ("files/", STD | {"core-geometry"}, "files know errors, nothing else"),
     ("image/", STD | {"core-geometry", "files", "png", "exr"}, "images know files and errors, nothing else"),
     ("scene/", STD | {"glm", "core-geometry", "files", "png", "jpeg", "webp", "draco", "meshopt", "json", "xxhash"},

@@ -32,11 +32,12 @@ CHECKS = (*TESTS, "checks (.ci/run)")
 SITE = (*CHECKS, "site")
 KIT = (*CHECKS, "kit", "compilers of the kit")
 EXAMPLES = (*TESTS, "examples")
+WEB = (*KIT, "web")
 # (beginning of a path, which sections its files may use); the longest counts. Objects lie in the folders of their targets.
 SECTIONS = [("", CHECKS), ("cmake/", PROGRAM), ("core/", LIBRARY), ("pack/", LIBRARY), ("vulkan/", LIBRARY), ("shaders/", LIBRARY),
             ("gl/", TESTS), ("examples/", LIBRARY), ("examples/gl_host/", TESTS), ("examples/osg/", EXAMPLES),
             *((f"{name}/", PROGRAM) for name in ("files", "image", "scene", "worlds", "truth", "host", "lab", "app")),
-            ("tests/", TESTS), ("tests/fuzz/", CHECKS), ("tests/site/", SITE), ("kit/", KIT), ("tests/kit/", KIT),
+            ("tests/", TESTS), ("tests/fuzz/", CHECKS), ("tests/site/", SITE), ("kit/", KIT), ("tests/kit/", KIT), ("web/", WEB), ("tests/web/", KIT),
             ("tools/make_", SITE), ("tools/site_pages.py", SITE)]
 FOLDERS = ("/usr/bin", "/usr/sbin", "/bin", "/sbin", "/usr/games")
 WORD = r"([A-Za-z][\w.+-]*)(?=[\s)\"';|&]|$)"
