@@ -32,7 +32,7 @@ LEGAL = {
     "vulkan/src/memory.h": "#include <gnomon/vulkan/renderer.h>\n",
     "vulkan/src/memory.cpp": '#include "memory.h"\n#include "gnomon_spirv.h"\n',
     "gl/include/gnomon/gl/shadow_renderer.h": "#include <gnomon/plan.h>\n",
-    "web/wasm/precision.cpp": "#include <gnomon/pack/filter_rule.h>\n",
+    "web/wasm/precision.cpp": "#include <gnomon/pack/lists.h>\n",
     "gl/src/functions.h": "#include <GL/glcorearb.h>\n#include <gnomon/gl/shadow_renderer.h>\n",
     "vulkan/classics/include/gnomon/vulkan/classics.h": "#include <gnomon/vulkan/renderer.h>\n",
     "vulkan/classics/src/fins.cpp": '#include <gnomon/vulkan/classics.h>\n#include "memory.h"\n#include "gnomon_spirv.h"\n',

@@ -3,7 +3,7 @@
 
 /** An image that commands name: its kind, and the planner's options that it belongs to (0: the frame's own). */
 export interface ImageRef {kind: string, options: number}
-/** A buffer, likewise. */
+/** A buffer that commands name, by the same two. */
 export interface BufferRef {kind: string, options: number}
 /** A rectangle, texels. */
 export interface Rectangle {x: number, y: number, width: number, height: number}
@@ -11,7 +11,7 @@ export interface Rectangle {x: number, y: number, width: number, height: number}
 export interface Tile extends Rectangle {layer: number}
 /** The shape of an image. `format`: of gnomon::MapFormat ("d32f"), or "r32ui". */
 export interface ImageShape {format: string, width: number, height: number, layers: number, levels: number, samples: number}
-/** What is drawn to. */
+/** The images that are drawn to, and the part of them. */
 export interface Target {
     colour: ImageRef | null;
     colourLayer: number;

@@ -5,7 +5,7 @@ import {GnomonError} from './wasm.js';
 
 /** A pipeline's bindings: group 0, and push data in group 3, which is the same for all. */
 export interface Layouts {group0: GPUBindGroupLayout, all: GPUPipelineLayout}
-/** What a bound texture is: part of a pipeline's layout. */
+/** The kind of a bound texture, which is part of a pipeline's layout. */
 export type TextureKind = 'float' | 'unfilterable-float' | 'uint';
 
 /** Bytes of push data that a module may have. */
@@ -16,7 +16,7 @@ export class Pipelines {
     private readonly shaders: Shaders;
     private readonly made = new Map<string, unknown>();
     private readonly empty: GPUBindGroupLayout;
-    /** Of push data. */
+    /** The layout of push data. */
     readonly push: GPUBindGroupLayout;
 
     constructor(device: GPUDevice, shaders: Shaders) {
@@ -137,7 +137,7 @@ export class Pipelines {
     }
 }
 
-/** The state of what is drawn to. */
+/** Formats and samples of the images that are drawn to. */
 export interface TargetState {
     colour: GPUTextureFormat | null;
     depth: GPUTextureFormat | null;

@@ -42,7 +42,7 @@ export interface Plan extends PlanHead {
     lights: LightPlan[];
     /** Light after light. */
     views: View[];
-    /** Of each of the planner's options. */
+    /** The pages of each of the planner's options. */
     pages: Pages[];
     /** In their order. */
     passes: Pass[];
@@ -56,7 +56,7 @@ export interface Plan extends PlanHead {
     moved: Bounds[];
     /** The picture's size. */
     sizePx: [number, number];
-    /** Of the frame's camera: depth is 1 near and 0 far. */
+    /** The frame's camera has depth 1 near and 0 far. */
     reversedZ: boolean;
 }
 

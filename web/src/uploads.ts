@@ -16,7 +16,7 @@ export class Uploads {
     constructor(device: GPUDevice) {
         this.device = device;
     }
-    /** What was put before has been submitted. */
+    /** Its room is free again: all that was put has been submitted. */
     begin(): void {
         this.used = 0;
         this.written = 0;

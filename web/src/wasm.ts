@@ -4,11 +4,11 @@ import {LAYOUTS, Status, type ErrorTexts} from './layouts.js';
 
 /** A call that failed: what was tried, what was found, what to do about it. */
 export class GnomonError extends Error {
-    /** What was tried. */
+    /** The step that was tried. */
     readonly tried: string;
-    /** What was found. */
+    /** The finding that made it fail. */
     readonly found: string;
-    /** What to do; may be empty. */
+    /** The advice what to do about it; may be empty. */
     readonly todo: string;
 
     constructor(tried: string, found: string, todo = '') {
@@ -35,7 +35,7 @@ const READ = {
 } as const;
 const BYTES: Record<string, number> = {u16: 2, u32: 4, ptr: 4, text: 4, u64: 8, f32: 4, f64: 8};
 
-/** What `loadGnomon()` takes. */
+/** How the module is loaded. */
 export interface LoadOptions {
     /** The bytes of gnomon.wasm or the compiled module; by default the file beside this one is read or fetched. */
     wasm?: BufferSource | WebAssembly.Module;
