@@ -154,7 +154,7 @@ class Web(unittest.TestCase):
         self.browser.problems.clear()
 
     def test_what_a_device_lacks_is_told(self):
-        for settings, found in (({"filter": "hard", "map-format": "r16"}, "map-format=r32f"), ({"filter": "pcf", "partition": "sdsm"}, "sdsm"),
+        for settings, found in (({"filter": "msm"}, "map-format=rgba32f"), ({"filter": "pcf", "partition": "sdsm"}, "sdsm"),
                                 ({"filter": "pcf", "partition": "single", "map-size": 16384}, "texels")):
             with self.subTest(settings):
                 self.assertIn(found, self.browser.run(f"refusal({json.dumps(settings)})"))

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The planner: camera, lights and bounds in, a plan of shadow maps out. The rules are those of the C interface (docs/c.md).
-import {LAYOUTS, type Bounds, type Camera, type DeviceRates, type Light, type LightPlan, type ObjectFlags, type ObjectId, type Option,
+import {INTERFACE, LAYOUTS, type Bounds, type Camera, type DeviceRates, type Light, type LightPlan, type ObjectFlags, type ObjectId, type Option,
         type PageRequests, type Pages, type Pass, type PlanHead, type Precision, type SeenCell, type View, type WorldLayer} from './layouts.js';
 import {GnomonError, sizeOf, Wasm, type LoadOptions, type Pointer} from './wasm.js';
-
-const INTERFACE = 1;
 
 /** Members of a struct that a host gives; those it leaves out have their defaults. Questions take booleans, arrays any list of numbers. */
 export type Given<T> = {[Name in keyof T as Exclude<Name, 'size'>]?: T[Name] extends number ? number | boolean : T[Name] extends bigint ? number | bigint
@@ -243,7 +241,7 @@ export class Planner {
     }
 }
 
-const CASTER_ROWS = 20; // offset of View.casterRows
+const CASTER_ROWS = LAYOUTS['View']!.members.find(([name]) => name === 'casterRows')![2];
 
 /** The library, once it is loaded. */
 export class Gnomon {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The commands of the planner's last plan (pack::FrameRecorder), read from WebAssembly's memory.
 import type {Binding, BufferRef, Command, ImageRef, Rectangle, Target, Tile} from './commands.js';
-import {BindingKind, BufferName, CommandKind, Has, ImageName, type Binding as RawBinding, type Command as RawCommand,
+import {BindingKind, BufferName, CommandKind, Has, ImageName, INTERFACE, NO_INDEX, type Binding as RawBinding, type Command as RawCommand,
         type CommandList} from './layouts.js';
 import type {Planner} from './planner.js';
 import type {MapReuse, MaskInputs} from './renderer.js';
@@ -10,8 +10,6 @@ import {sizeOf, type Pointer, type Wasm} from './wasm.js';
 /** Limits of the device. */
 export interface Traits {mostLayers: number, uniformAlignment: number}
 
-const NONE = 0xFFFFFFFF;
-const INTERFACE = 1;
 const IMAGES = namesOf(ImageName);
 const BUFFERS = namesOf(BufferName);
 /** By how much a number of -1 to 1 is off at most in a format of normals. */
@@ -104,12 +102,12 @@ function bindingOf(raw: RawBinding): Binding {
                    [BindingKind.storage]: 'storage'} as const;
     const isImage = raw.kind === BindingKind.texture || raw.kind === BindingKind.storageImage;
     return {binding: raw.binding, kind: kinds[raw.kind as keyof typeof kinds], image: isImage ? imageOf(raw.image) : null,
-            level: raw.level === NONE ? null : raw.level, linear: raw.linear !== 0, buffer: isImage ? null : bufferOf(raw.buffer),
+            level: raw.level === NO_INDEX ? null : raw.level, linear: raw.linear !== 0, buffer: isImage ? null : bufferOf(raw.buffer),
             offset: Number(raw.offset), bytes: Number(raw.bytes)};
 }
 function targetOf(raw: Raw): Target {
-    return {colour: raw.colour[0] === NONE ? null : imageOf(raw.colour), colourLayer: raw.colourLayer,
-            depth: raw.depth[0] === NONE ? null : imageOf(raw.depth), depthLayer: raw.depthLayer,
+    return {colour: raw.colour[0] === NO_INDEX ? null : imageOf(raw.colour), colourLayer: raw.colourLayer,
+            depth: raw.depth[0] === NO_INDEX ? null : imageOf(raw.depth), depthLayer: raw.depthLayer,
             viewport: rectangleOf(raw.viewport), scissor: rectangleOf(raw.scissor), channels: raw.channels};
 }
 

@@ -50,6 +50,7 @@ class Header:
         self.structs: dict[str, Struct] = {}
         self.enums: dict[str, tuple[str, list[tuple[str, int, str]]]] = {}
         self.functions: list[str] = []
+        self.numbers: list[tuple[str, str]] = []
         for text in texts:
             for comment, kind, body, name in re.findall(r"((?:^///[^\n]*\n)*)^typedef (enum|struct) \w+ \{(.*?)\} (\w+);", text,
                                                         re.MULTILINE | re.DOTALL):
@@ -59,6 +60,7 @@ class Header:
                     self.enums[name] = (said, [(key, int(value), note) for key, value, note in rows])
                 else:
                     self.structs[name] = self._struct(name, said, body)
+            self.numbers += re.findall(r"^#define GNOMON_(\w+) (0x[0-9A-F]+|\d+)U", text, re.MULTILINE)
             self.functions += re.findall(r"^GNOMON_C_API [^(]*?(\w+)\(", text, re.MULTILINE)
 
     def _struct(self, name: str, comment: str, body: str) -> Struct:
@@ -127,7 +129,7 @@ def write(headers: list[Path], script: Path, check: Path, exports: Path) -> None
     header = Header([one.read_text(encoding="utf-8") for one in headers])
     structs = list(header.structs.values())
     parts = ["// SPDX-License-Identifier: Apache-2.0\n// Made by tools/layouts.py from the C headers. Lengths are metres and angles radians.",
-             *(enum(name, *rest) for name, rest in header.enums.items()), *(interface(one) for one in structs),
+             *(f"export const {name} = {number};" for name, number in header.numbers), *(enum(name, *rest) for name, rest in header.enums.items()), *(interface(one) for one in structs),
              "/** Members: name, type, offset in bytes, counts of arrays. */\n"
              "export type Layout = {size: number, members: [name: string, type: string, offset: number, counts: number[]][]};\n"
              "export const LAYOUTS: Record<string, Layout> = {\n" + "\n".join(table(one) for one in structs) + "\n};"]
