@@ -53,6 +53,10 @@ ITEMS = {
     "fuzz": Item("make -s fuzz JOBS=$JOBS FUZZ_SECONDS=60", parts=("scene/", "image/", "truth/"),
                  paths=("tests/fuzz/", "tools/fuzz.sh", "app/src/preset", "app/src/setting", "app/src/bench_figures")),
     "kit": Item("make -s kit-check BUILT=1", paths=("kit/", "tests/kit/", "shaders/"), built=True),
+    "web": Item("make -s playground JOBS=$JOBS && " + BUILT + "web",
+                paths=("web/", "tests/web/", "tests/playground/", "kit/", "pack/src/commands/", "c/include/"), built=True),
+    "osg": Item("tools/install_packages.sh --only examples packages.txt && cmake build && cmake --build build -j $JOBS && " + BUILT + "osg",
+                paths=("examples/osg/", "gl/"), built=True),
     "roots": Item("make -s package-test JOBS=$JOBS", needs="debootstrap", takes_turns=False),
     "bare": Item("tools/bare_root_test.sh", needs="debootstrap", takes_turns=False),
     # In build/, which `make check-all` has by then.
