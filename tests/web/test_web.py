@@ -9,14 +9,12 @@ PACKAGES is the folder that `make web` fills, and WEB_CASES the program of draw_
 tested, which is said; exit status 77.
 """
 
-import http.server
 import json
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
-import threading
 import unittest
 from pathlib import Path
 
@@ -26,6 +24,7 @@ import browser  # noqa: E402
 from browser import Browser, find_chromium  # noqa: E402
 from masks import Mask, beyond_edges, farthest  # noqa: E402
 from recorder import run_cases  # noqa: E402
+from serving import FLAGS, Server  # noqa: E402
 
 PACKAGES, WEB_CASES = (Path(one).resolve() for one in sys.argv[1:3])
 PACKAGE = next(iter(sorted(PACKAGES.glob("*.tgz"))), None)
@@ -33,31 +32,10 @@ RESULTS = Path(sys.argv[3]) if len(sys.argv) > 3 else None
 # SwiftShader draws, which comes with Chromium: WebGPU without a GPU. As a Vulkan driver it rounds as there, so that masks are to be the
 # same. It takes minutes to compile the larger filters; these are held to another driver's masks.
 SWIFTSHADER = Path("/usr/lib/chromium/vk_swiftshader_icd.json")
-FLAGS = ("--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader")
 SLOW_S = 120  # it compiles each pipeline on one processor
 MOST_KB = 1500
 # Pixels of 14400. Another driver places the edges of a map's casters otherwise, by a texel here and there: raymarch has one such pixel.
 MOST_BEYOND = {"exact": 0, "cases": 1}
-
-
-class Quiet(http.server.SimpleHTTPRequestHandler):
-    extensions_map = {**http.server.SimpleHTTPRequestHandler.extensions_map, ".wasm": "application/wasm", ".mjs": "text/javascript"}
-
-    def log_message(self, *_):
-        pass
-
-
-class Server:
-    """Serves a folder on this machine."""
-
-    def __init__(self, folder: Path):
-        self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), lambda *args: Quiet(*args, directory=str(folder)))
-        self.address = f"http://127.0.0.1:{self.server.server_port}/"
-        threading.Thread(target=self.server.serve_forever, daemon=True).start()
-
-    def stop(self):
-        self.server.shutdown()
-        self.server.server_close()
 
 
 class Web(unittest.TestCase):
