@@ -249,7 +249,7 @@ def kept_cells(text: str) -> dict[tuple[str, str], str]:
 
 
 def cell_of(module: dict, dialect: str, marks: dict[str, dict[str, str]], kept: str, answered: set[str]) -> str:
-    """Who took the module. Of compilers that have not answered, and of a dialect that this kit is without, the table says it."""
+    """The compilers that took the module. The table says it of compilers that have not answered, and of a dialect that this kit is without."""
     if dialect in module["missing"]:
         return "–"
     if dialect not in module["files"]:

@@ -44,7 +44,7 @@ public:
     /// and who receives. `path`: from the root to the scene, as CullVisitor has it.
     void collect(osg::Group& scene, const osgShadow::ShadowSettings& masks, const osg::NodePath& path);
     [[nodiscard]] const gnomon::ObjectSet& objects() const { return objects_; }
-    /// Of the last collect(); a frame that is drawn later keeps them.
+    /// From the last collect(); a frame that is drawn later keeps them.
     [[nodiscard]] std::shared_ptr<const Casters> casters() const { return casters_; }
 
 private:

@@ -31,7 +31,7 @@ constexpr unsigned kMasked = 1, kMetric = 2, kSamples = 4, kColour = 8, kIds = 1
 
 osg::ref_ptr<osg::Program> makeProgram(const std::string& vertex, const std::string& fragment);
 
-/// What one view has in one context. Made and deleted where that context is current.
+/// The things of one view in one context. Made and deleted where that context is current.
 struct Drawn {
     std::unique_ptr<gnomon::gl::ShadowRenderer> renderer;
     GLuint framebuffer = 0;
@@ -57,7 +57,7 @@ struct View {
     std::map<unsigned, std::shared_ptr<Drawn>> drawn; // by context
 };
 
-/// What the technique and its frames in flight share.
+/// The things that the technique and its frames in flight share.
 struct Shared {
     std::mutex mutex; // of all below; culls and draws may be in threads of their own
     CasterScene scene;
@@ -73,7 +73,7 @@ struct Shared {
     Shared();
     /// The view of a camera. Those of cameras that are gone are dropped.
     View& viewOf(osg::Camera& camera, const gnomon::ShadowOptions& options);
-    /// What has been drawn in this context is deleted, at once where it is current; null: in all contexts.
+    /// Deletes the things of this context, at once where it is current; null: those of all contexts.
     void releaseDrawn(osg::State* state);
     /// Has what the view has drawn deleted.
     void drop(View& view);

@@ -69,7 +69,7 @@ void main()
     gl_FragColor = vec4(min(sum, 1.0) * base.rgb, gl_FrontMaterial.diffuse.a * base.a);
 })";
 
-// ---- What a frame has
+// ---- The contents of a frame
 
 /// The lights that CullVisitor has met, with their numbers in OpenGL. Those that hang on the camera cast nothing.
 struct Lights {

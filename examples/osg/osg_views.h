@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What gnomon_osg and its check show: a scene under lights, in a viewer without a window, with any technique.
+// The pictures of gnomon_osg and of its check: a scene under lights, in a viewer without a window, with any technique.
 #pragma once
 
 #include "gnomon_shadow_technique.h"
@@ -15,7 +15,7 @@
 constexpr unsigned kReceives = 1;
 constexpr unsigned kCasts = 2;
 
-/// What is looked at, and how.
+/// The thing that is looked at, and how.
 struct Look {
     osg::Vec3d eye{6.0, 8.0, 12.0};
     osg::Vec3d target{0.0, 0.5, 0.0};

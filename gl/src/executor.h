@@ -13,7 +13,7 @@
 
 namespace gnomon::gl {
 
-/// What a list of commands is run with.
+/// The host's part in a list of commands.
 struct Host {
     const Plan& plan;
     const MaskInputs* inputs = nullptr; // for a list that draws the mask

@@ -131,7 +131,7 @@ ILLEGAL = [
     ("lab/score/src/score.cpp", '#include "lab/compare.h"', "scores include the rest of the lab"),
     ("lab/compare.h", '#include "lab/score/src/rays.h"', "the lab includes a private header of the scores"),
     ("app/src/main.cpp", '#include "vulkan/src/memory.h"', "the program includes a private header"),
-    ("app/src/main.cpp", "#include <imgui.h>", "the program's sources but for the window's include widgets"),
+    ("app/src/main.cpp", "#include <imgui.h>", "the program's sources except the window's include widgets"),
     ("app/src/view/panel.cpp", "#include <GLFW/glfw3.h>", "panels include a window"),
     ("examples/host/main.cpp", '#include "host/renderer.h"', "an example includes our host"),
     ("core/src/fit/uniform.cpp", '#include "shared/bias.h"', "core includes a shared header without the prefix"),

@@ -93,7 +93,7 @@ export class CasterPipelines {
             this.used = 0;
         }
         if (!this.rows || this.used + rows.byteLength > this.rows.size) {
-            // What is recorded may read the old one, so that it is left to the garbage collector.
+            // Recorded draws may read the old one, so that it is left to the garbage collector.
             const size = 2 ** Math.ceil(Math.log2(Math.max(1 << 14, 2 * rows.byteLength, 2 * (this.rows?.size ?? 0))));
             this.rows = this.device.createBuffer({label: 'gnomon casters', size, usage: GPUBufferUsage.VERTEX | GPUBufferUsage.COPY_DST});
             this.used = 0;

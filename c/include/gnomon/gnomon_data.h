@@ -339,7 +339,7 @@ typedef struct GnomonView {
     double finest_texel[2];   // sides of a warped map's finest texel, as texel_xy_m
     double coarsest_texel[2]; // sides of its coarsest texel
 
-    // What its casters are drawn to (pack::MapAttachments).
+    // The attachments that its casters are drawn to (pack::MapAttachments).
     const char* depth_format;      // of the depth attachment: "d32f", "d24" or "d16"
     const char* colour_format;     // of the colour attachment; empty: none
     float clear_depth;             // before casters are drawn

@@ -41,7 +41,7 @@ bool MaskCommands::holds(const Plan& plan) const
     return mask().size_px.x > 0 && mask().format == maskFormat(plan) && mask().layers >= plan.mask_layers;
 }
 
-/// What never changes: stand-ins, and the points of a disc.
+/// The resources that never change: stand-ins, and the points of a disc.
 void MaskCommands::makeSmall()
 {
     if (has_small_) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pointer, a wheel or a key on the picture asks for.
+// The wishes of a pointer, a wheel or a key on the picture.
 
 export interface Moves {
   /** The camera turns about its target, by degrees. */

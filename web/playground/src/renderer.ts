@@ -118,7 +118,7 @@ export class Renderer {
     return this.scene?.radius ?? 1;
   }
 
-  /** Draws a frame. `drawn`: which parts are drawn anew; the others are those of the last frame. What it returns is for the
+  /** Draws a frame. `drawn`: which parts are drawn anew; the others are those of the last frame. The text that it returns is for the
    * visitor: why shadows are not as asked, or nothing. */
   draw(state: PageState, sight: Sight, drawn: 'light' | 'surfaces' | 'shadows'): string {
     if (!this.scene) {

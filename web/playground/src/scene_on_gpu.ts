@@ -32,7 +32,7 @@ export class SceneOnGpu {
   /** Texture coordinates of all vertices, float32x2. */
   readonly uvs: GPUBuffer;
   readonly images: GPUTexture;
-  /** Of each place, in the world. */
+  /** Bounds of each place, in the world. */
   readonly bounds: Bounds[];
   /** Half the diagonal of everything, metres. */
   readonly radius: number;

@@ -108,7 +108,7 @@ export class Shadows {
     this.planner.check(kDirectional);
   }
 
-  /** Records maps and mask. What it returns is for the visitor: why the shadows are not as asked, or nothing. */
+  /** Records maps and mask. The text that it returns is for the visitor: why the shadows are not as asked, or nothing. */
   record(encoder: GPUCommandEncoder, frame: ShadowFrame): string {
     this.hasMask = false;
     if (!this.objects || !this.scene) {

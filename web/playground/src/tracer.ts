@@ -28,7 +28,7 @@ function inverseOf(m: Float32Array, at: number, out: Float64Array, to: number): 
 }
 
 export class Tracer {
-  /** Of the last hit: distance in lengths of the ray's direction, and the triangle's unit normal, which faces the ray's start. */
+  /** The last hit: distance in lengths of the ray's direction, and the triangle's unit normal, which faces the ray's start. */
   t = 0;
   readonly normal = new Float64Array(3);
 

@@ -13,7 +13,7 @@ export class Truth {
   private readonly workers: Worker[];
   private readonly samplesOf: number[];
   private readonly idle: boolean[];
-  /** What is traced. */
+  /** The scene that is traced. */
   view: TruthView | undefined;
   private id = 0;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page and the workers that trace say to each other, and which rows are whose.
+// The messages between the page and the workers that trace, and which rows are whose.
 import { kCoarse, type TruthView } from './pixel_truth.ts';
 
 export type ToWorker =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What three.js has of a scene on the GPU. WebGPURenderer's backend has no types of its own for this.
+// The things that three.js has of a scene on the GPU. WebGPURenderer's backend has no types of its own for this.
 import type {BufferAttribute, InterleavedBufferAttribute, Texture, WebGPURenderer} from 'three/webgpu';
 
 interface Backend {

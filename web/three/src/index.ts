@@ -31,7 +31,7 @@ const CHOICES = ['partition', 'fit', 'filter', 'soften', 'motion'];
 export class GnomonShadows {
     /** The last frame's plan: what became of each light, and what was drawn. */
     plan: Plan | null = null;
-    /** What is left out, each once. */
+    /** The things that are left out, each once. */
     readonly notices = new Set<string>();
 
     private readonly renderer: WebGPURenderer;

@@ -10,7 +10,7 @@ const SUN_DEGREES = 0.53;
 export const SUNS = 0;
 export const LAMPS = 1;
 
-/** What three.js' lights have no member for: `light.userData.gnomon`. */
+/** Members that three.js' lights lack: `light.userData.gnomon`. */
 export interface LightSettings {
     /** Directional: how wide it is in the sky, degrees; default: the sun's 0.53. */
     angularDiameter?: number;
@@ -75,7 +75,7 @@ class LightMask {
 }
 
 export class SceneLights {
-    /** Of the last update(), in the order of the frame's lights. */
+    /** The last update()'s, in the order of the frame's lights. */
     readonly given: Given<PlannedLight>[] = [];
     private readonly mask: MaskTexture;
     private readonly masks = new Map<ShadowedLight, LightMask>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The camera's depth and the geometric normals of what it sees, drawn by three.js itself: whatever its materials do to vertices and
-// holes holds here, too. What is transparent is left out.
+// holes holds here, too. Transparent surfaces are left out.
 import {abs, cameraWorldMatrix, float, normalize, positionView, select, vec2, vec4} from 'three/tsl';
 import {Color, DepthTexture, FloatType, HalfFloatType, MeshBasicNodeMaterial, NearestFilter, RenderTarget, RGFormat, type Camera, type Material,
         type Node, type Object3D, type Scene, type Texture, type WebGPURenderer} from 'three/webgpu';
@@ -17,7 +17,7 @@ function octahedral(n: Node<'vec3'>): Node<'vec2'> {
     return select(n.z.lessThan(0), folded, p);
 }
 
-/** Of the triangle, facing the camera: from how the surface's place changes from pixel to pixel. */
+/** The triangle's normal, facing the camera: from how the surface's place changes from pixel to pixel. */
 function geometricNormal(): Node<'vec3'> {
     const inView = normalize(positionView.dFdx().cross(positionView.dFdy()));
     return normalize(cameraWorldMatrix.mul(vec4(inView, 0)).xyz);

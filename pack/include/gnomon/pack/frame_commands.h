@@ -124,7 +124,7 @@ struct CopyTexels {
     Tile place;    // of the same size
 };
 
-/// What is drawn to.
+/// The images that are drawn to, and the part of them.
 struct CommandTarget {
     std::optional<ImageRef> colour; // nothing: no colours
     std::uint32_t colour_layer = 0; // its layer

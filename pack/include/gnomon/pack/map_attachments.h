@@ -14,7 +14,7 @@ namespace gnomon::pack {
 /// The attachments of a pass that draws casters. Depth is tested by "less or equal" and written.
 struct MapAttachments {
     MapFormat depth = MapFormat::d32f; // of the depth attachment: d16, d24 or d32f
-    /// Of the colour attachment, which then is the map: a fragment shader writes gnomonCasterTexel()
+    /// The colour attachment's, which then is the map: a fragment shader writes gnomonCasterTexel()
     /// (gnomon/caster.glsl; caster_colour*.frag of the kit). None: the depths are the map, or with a filterable filter
     /// the moments are made of them.
     std::optional<MapFormat> colour;
