@@ -3,6 +3,7 @@
 # tools/unity_groups.py keeps apart what would clash.
 
 include(${CMAKE_CURRENT_LIST_DIR}/python.cmake)
+cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH gnomon_root) # web/ is a project of its own
 
 # gnomon_unity_sources(OUT TARGET): those that may go together; none for a target that says itself how it is compiled.
 function(gnomon_unity_sources out target)
@@ -30,7 +31,7 @@ function(gnomon_unity target)
     foreach(line ${ARGN})
         string(REGEX MATCH "^([^ ]+) (.+)$" all "${line}")
         set(group ${CMAKE_MATCH_1})
-        cmake_path(RELATIVE_PATH CMAKE_MATCH_2 BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE source)
+        cmake_path(RELATIVE_PATH CMAKE_MATCH_2 BASE_DIRECTORY ${gnomon_root} OUTPUT_VARIABLE source)
         list(APPEND groups ${group})
         string(APPEND includes_of_${group} "#include \"${source}\"\n")
         list(APPEND sources_of_${group} ${CMAKE_MATCH_2})
@@ -46,7 +47,7 @@ function(gnomon_unity target)
             set_source_files_properties(${sources_of_${group}} TARGET_DIRECTORY ${target} PROPERTIES HEADER_FILE_ONLY ON)
         endif()
     endforeach()
-    target_compile_options(${target} PRIVATE -iquote ${PROJECT_SOURCE_DIR})
+    target_compile_options(${target} PRIVATE -iquote ${gnomon_root})
     # A type of an unnamed namespace may be a member of another type of the same source; GCC takes the group for a header.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
@@ -80,7 +81,7 @@ function(gnomon_unity_everywhere folder)
             list(APPEND words --target ${target} ${sources})
         endif()
     endforeach()
-    execute_process(COMMAND ${GNOMON_PYTHON} -B ${PROJECT_SOURCE_DIR}/tools/unity_groups.py ${words}
+    execute_process(COMMAND ${GNOMON_PYTHON} -B ${gnomon_root}/tools/unity_groups.py ${words}
                     OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
     string(REGEX MATCHALL "[^\n]+" lines "${lines}")
     foreach(target ${targets})
