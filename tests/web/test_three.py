@@ -91,7 +91,9 @@ class ForThree(unittest.TestCase):
     def test_msm_draws_in_a_format_that_can_be_stored_to(self):
         found = self.tab.run("example.use('msm+cascades').then(draw).then(() => points('sun', 7))")
         self.tab.run("example.use('raymarch+cascades').then(draw)")
-        self.assertLessEqual(len(found["wrong"]), MOST_WRONG * (found["lit"] + found["shadowed"]), found["wrong"][:4])
+        self.assertGreater(found["shadowed"], 60)
+        # It blurs farther than a texel. Without shadows 7 of a hundred points would be wrong.
+        self.assertLessEqual(len(found["wrong"]), 2 * MOST_WRONG * (found["lit"] + found["shadowed"]), found["wrong"][:4])
 
     def test_a_check_can_fail(self):
         # The scene is another one than the mask was made of.
