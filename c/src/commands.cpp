@@ -266,6 +266,11 @@ const GnomonCommandList* gnomonRecordMask(GnomonRecorder* recorder, const Gnomon
                                           const GnomonPrecision* precision) noexcept
 {
     return recorded("recording the mask", recorder, planner, [&](GnomonRecorder& own, const Plan& plan) {
+        constexpr std::uint32_t kAll = GNOMON_HAS_NORMALS | GNOMON_HAS_SMOOTH | GNOMON_HAS_IDS;
+        if ((images & ~kAll) != 0) {
+            throw WrongCall{"images is " + std::to_string(images) + ", which has bits that are none of GnomonHas",
+                            "give the bits of the images that there are"};
+        }
         pack::RecorderInputs inputs;
         inputs.normals = (images & GNOMON_HAS_NORMALS) != 0;
         inputs.smooth = (images & GNOMON_HAS_SMOOTH) != 0;

@@ -227,6 +227,7 @@ TEST(CCommands, RefuseWrongCalls)
     EXPECT_EQ(gnomonRecordMaps(host.recorder, world.planner), nullptr) << "there are no images";
     EXPECT_EQ(gnomonRecordMask(host.recorder, world.planner, 0, nullptr), nullptr);
     host.draw(world);
+    EXPECT_EQ(gnomonRecordMask(host.recorder, world.planner, 8, nullptr), nullptr) << "there is no such image";
     GnomonPrecision precision;
     gnomonInitPrecision(&precision, sizeof(precision));
     precision.depth_rounding = std::nanf("");

@@ -8,7 +8,7 @@ export async function openDevice() {
     return adapter.requestDevice({requiredFeatures: wantedFeatures(adapter)});
 }
 
-export async function makeShadows(device, things) { // {bounds, meshes, transform}: a CasterMesh list, three rows of four numbers
+export async function makeShadows(device, things) { // {bounds: {min, max}, meshes: CasterMesh[], transform: 3 rows of 4 numbers}
     const [gnomon, shaders] = [await loadGnomon(), await loadShaders()];
     const objects = gnomon.makeObjects();
     const names = things.map(thing => objects.add(thing.bounds));

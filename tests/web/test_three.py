@@ -88,6 +88,13 @@ class ForThree(unittest.TestCase):
                 self.assertGreater(found["shadowed"], least)
                 self.assertLessEqual(len(found["wrong"]), MOST_WRONG * count)
 
+    def test_msm_draws_in_a_format_that_can_be_stored_to(self):
+        found = self.tab.run("example.use('msm+cascades').then(draw).then(() => points('sun', 7))")
+        self.tab.run("example.use('raymarch+cascades').then(draw)")
+        self.assertGreater(found["shadowed"], 60)
+        # It blurs farther than a texel. Without shadows 7 of a hundred points would be wrong.
+        self.assertLessEqual(len(found["wrong"]), 2 * MOST_WRONG * (found["lit"] + found["shadowed"]), found["wrong"][:4])
+
     def test_a_check_can_fail(self):
         # The scene is another one than the mask was made of.
         found = self.tab.run("""(async () => {

@@ -174,6 +174,11 @@ export class Planner {
     /** Plans a frame. Any numbers are taken: a light's outcome says why it cannot be planned. */
     plan(frame: Frame): Plan {
         const {wasm} = this;
+        for (const needed of ['camera', 'objects', 'lights'] as const) {
+            if (!frame[needed]) {
+                throw new GnomonError('plan a frame', `it has no ${needed}`, 'give the camera, the set of objects and the list of lights');
+            }
+        }
         this.last = null;
         const at = wasm.with(frameBytes(frame), room => wasm.pointer('gnomonPlan', living(this.at), writeFrame(wasm, room, frame)));
         this.last = this.read(at, frame);

@@ -149,8 +149,8 @@ GNOMON_C_API GnomonRecorder* gnomonMakeRecorder(uint32_t header_interface, uint3
 /// Null does nothing.
 GNOMON_C_API void gnomonFreeRecorder(GnomonRecorder* recorder) GNOMON_NOEXCEPT;
 /// Images and buffers for the planner's last plan, and a mask of this size, pixels; 0: no mask. Null where it fails,
-/// with the sentence that says what is not recorded. The list holds until the recorder's next call, as do those below;
-/// it runs before what the next call records.
+/// with the sentence that says what is not recorded; errors call this function prepare(). The list holds until the
+/// recorder's next call, as do those below; it runs before what the next call records.
 GNOMON_C_API const GnomonCommandList* gnomonRecordImages(GnomonRecorder* recorder, const GnomonPlanner* planner,
                                                          uint32_t width_px, uint32_t height_px) GNOMON_NOEXCEPT;
 /// The maps that are out of date.

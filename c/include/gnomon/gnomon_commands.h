@@ -10,7 +10,9 @@
 
 // NOLINTBEGIN(modernize-use-using): C has no other name for a struct.
 
-/// An image that commands name (pack::ImageName, which says more).
+/// An image that commands name (pack::ImageName, which says more). Each is drawn to, sampled and copied as its format
+/// allows; strips, blocks and the maps of filterable filters are stored to. Row 0 is where clip space's y is -1. The
+/// host's have the mask's size.
 typedef enum GnomonImageName {
     GNOMON_IMAGE_MAPS = 0,           // of one of the planner's options: what filters read
     GNOMON_IMAGE_KEPT_DEPTHS = 1,    // of the options: maps of still casters
@@ -23,10 +25,10 @@ typedef enum GnomonImageName {
     GNOMON_IMAGE_BLURRED_TWICE = 8,  // of the frame: blurred twice
     GNOMON_IMAGE_NO_IDS = 9,         // of the frame: stands in for ids of objects
     GNOMON_IMAGE_NO_BLOCKS = 10,     // of the frame: stands in for blocks
-    GNOMON_IMAGE_CAMERA_DEPTH = 11,  // the host's
-    GNOMON_IMAGE_CAMERA_NORMAL = 12, // the host's
-    GNOMON_IMAGE_CAMERA_SMOOTH = 13, // the host's
-    GNOMON_IMAGE_CAMERA_IDS = 14,    // the host's
+    GNOMON_IMAGE_CAMERA_DEPTH = 11,  // the host's: depths of its camera
+    GNOMON_IMAGE_CAMERA_NORMAL = 12, // the host's: GNOMON_HAS_NORMALS
+    GNOMON_IMAGE_CAMERA_SMOOTH = 13, // the host's: GNOMON_HAS_SMOOTH
+    GNOMON_IMAGE_CAMERA_IDS = 14,    // the host's: GNOMON_HAS_IDS
 } GnomonImageName;
 /// A buffer that commands name (pack::BufferName).
 typedef enum GnomonBufferName {
@@ -42,17 +44,18 @@ typedef enum GnomonBufferName {
     GNOMON_OF_POINTS = 9,      // of the frame: the points of the blur on the screen
 } GnomonBufferName;
 
-/// The kind of a command; the members of GnomonCommand that it has are named beside it.
+/// The kind of a command; the members of GnomonCommand that it has are named beside it. The target is colour,
+/// colour_layer, depth, depth_layer, viewport, scissor and channels. Viewports have depths 0 to 1, nothing is culled.
 typedef enum GnomonCommandKind {
-    GNOMON_DROP_OPTIONS = 0,  // images and buffers of `options` are used no more
-    GNOMON_MAKE_IMAGE = 1,    // image, format, size_px, layers, levels, samples, keeps
-    GNOMON_MAKE_BUFFER = 2,   // buffer, bytes, copies
-    GNOMON_WRITE_BUFFER = 3,  // buffer, offset, data, alone
-    GNOMON_ZERO_BUFFER = 4,   // buffer
-    GNOMON_COPY_TEXELS = 5,   // image, area, to, place
-    GNOMON_CLEAR_TARGET = 6,  // the target: colours, the channels that are written, and depths become 1
-    GNOMON_DRAW_CASTERS = 7,  // the target, view, casters, caster_count, share
-    GNOMON_DRAW_TRIANGLE = 8, // the target, vertex, module, constants, push, bindings, least
+    GNOMON_DROP_OPTIONS = 0,  // options: the commands that follow use its images and buffers no more
+    GNOMON_MAKE_IMAGE = 1,    // image, format, size_px, layers, levels, samples, keeps; it starts as 0, depths as 1
+    GNOMON_MAKE_BUFFER = 2,   // buffer, bytes, copies; the rest is undefined
+    GNOMON_WRITE_BUFFER = 3,  // buffer, offset, data, alone; no list writes bytes twice, or after they were read
+    GNOMON_ZERO_BUFFER = 4,   // buffer: all of it
+    GNOMON_COPY_TEXELS = 5,   // image, area, to, place: of one format and one size
+    GNOMON_CLEAR_TARGET = 6,  // the target: in its scissor depths and the channels that are written become 1
+    GNOMON_DRAW_CASTERS = 7,  // the target, view, casters, caster_count, share; depth test less or equal, written
+    GNOMON_DRAW_TRIANGLE = 8, // the target, vertex, module, constants, push, bindings, least; 3 vertices, no depth test
     GNOMON_RUN_COMPUTE = 9,   // module, constants, push, bindings, groups
 } GnomonCommandKind;
 /// Which of a view's casters.
@@ -90,14 +93,14 @@ typedef struct GnomonCommand {
     uint32_t share;          // GnomonCasterShare
     uint32_t caster_count;   // how many casters
     uint32_t least;          // the lesser of the old and the new value stays: blending MIN
-    uint32_t constants[2];   // range of words: specialization constants by their ids, from 0 on
-    uint32_t push[2];        // range of words: push constants
+    uint32_t constants[2];   // range of words: specialization constants by id, from 0 on; modules lack some
+    uint32_t push[2];        // range of words: push constants of both stages, at most 128 bytes
     uint32_t bindings[2];    // range of bindings
     uint32_t groups[3];      // of a compute module, along x, y, z
     uint32_t reserved;       // 0
     const uint32_t* casters; // indices of objects
-    const char* format;      // of an image: "d32f", or "r32ui"
-    const char* vertex;      // module: "mask.vert"
+    const char* format;      // of an image: a value of the option map-format, or "r32ui"
+    const char* vertex;      // module: "mask.vert"; for "mask_numbers.vert" take "mask.vert" unless in SPIR-V
     const char* module;      // fragment or compute module: "mask_pcf.frag"
 } GnomonCommand;
 
@@ -115,7 +118,7 @@ typedef struct GnomonBinding {
     uint32_t image[2];  // as in GnomonCommand
     uint32_t buffer[2]; // as in GnomonCommand
     uint32_t level;     // mip level; GNOMON_NO_INDEX: all
-    uint32_t linear;    // linear within and between levels; else the nearest texel
+    uint32_t linear;    // linear within and between levels; else the nearest texel. Both clamp to the edge
     uint64_t offset;    // of a uniform block, bytes
     uint64_t bytes;     // of the block; 0: the whole buffer
 } GnomonBinding;

@@ -153,6 +153,9 @@ export class GnomonShadows {
             set(choice?.key ?? key!, value ?? word);
         }
         Object.entries(this.asked.options ?? {}).forEach(([key, value]) => set(key, value));
+        if (/^(msm|lvsm)$/.test(planner.get('filter', SUNS)) && planner.get('map-format', SUNS) === '') {
+            set('map-format', 'rgba32f'); // their own, rgba16, is one that shaders of WebGPU do not store to
+        }
         planner.set('map-size', planner.get('map-size', SUNS), LAMPS); // there are options of lamps even where nothing is asked
     }
 }

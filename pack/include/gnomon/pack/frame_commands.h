@@ -92,12 +92,11 @@ struct CommandRange {
 struct DropOptions {
     std::uint32_t options = 0; // index into Plan::options
 };
-/// Makes an image, cleared to zeros, or to 1 where it has a depth format. One of this name may be there, which is no
-/// larger.
+/// Makes an image, cleared to zeros, or to 1 where it has a depth format, in place of one of this name.
 struct MakeImage {
     ImageRef image;     // the image
     ImageShape shape;   // its shape
-    bool keeps = false; // all texels of the old one go on in its place, level by level, as far as there are levels
+    bool keeps = false; // all texels of the old one, which is no larger, go on in it, as far as it has their levels
 };
 /// Makes a buffer, in place of one of this name. Its contents are undefined.
 struct MakeBuffer {
@@ -153,7 +152,7 @@ struct CommandBinding {
     BindingKind kind = BindingKind::texture; // the kind
     ImageRef image;                          // texture, storage_image
     std::uint32_t level = kNoIndex;          // its mip level; kNoIndex: a texture of all levels
-    bool linear = false;                     // texture: linear within and between levels; else the nearest texel
+    bool linear = false;                     // texture: linear within and between levels; else the nearest; clamps
     BufferRef buffer;                        // uniform, storage
     std::uint64_t offset = 0;                // uniform: bytes
     std::uint64_t bytes = 0;                 // uniform: of the block; 0: the whole buffer
