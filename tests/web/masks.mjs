@@ -65,6 +65,11 @@ function makeSide(settings, subPixelBits, meshesOf = object => object === 0 ? wo
             device.queue.submit([encoder.finish()]);
             return {layers: plan.maskLayers, channels: plan.maskChannels};
         },
+        warmUp(lights) {
+            const plan = planner.plan({index: index++, camera: scene.camera, widthPx: size[0], heightPx: size[1], objects, lights});
+            shadows.prepare(plan, size);
+            return shadows.warmUp(plan, {depth: world.depth, normal: world.normal, normalRounding: 2 ** -16});
+        },
         mask: shape => readMask(shadows.mask, shape),
         get reuse() {
             return shadows.reuse;
@@ -115,6 +120,33 @@ async function drawOn(settings, names) {
     kept.end();
     anew.end();
     return {apart: farthest(...masks), reuse};
+}
+
+/**
+ * Frames of a renderer that was warmed up, and of one that was not: by how much their masks differ, and which of the package's pipelines
+ * are compiled by warming up and by the frame after it. Casters' are the host's.
+ */
+async function drawWarm(settings) {
+    const {lights} = told['cases'].cases[0];
+    const names = {ahead: [], late: []};
+    for (const [kind, list] of [['createRenderPipelineAsync', names.ahead], ['createComputePipelineAsync', names.ahead],
+                                ['createRenderPipeline', names.late], ['createComputePipeline', names.late]]) {
+        device[kind] = descriptor => {
+            list.push(descriptor.label);
+            return Object.getPrototypeOf(device)[kind].call(device, descriptor);
+        };
+    }
+    const [warm, cold] = [makeSide(settings, 4), makeSide(settings, 4)];
+    await warm.warmUp(lights);
+    const ahead = names.ahead.slice();
+    names.late.length = 0;
+    const shape = warm.draw(lights);
+    const late = names.late.filter(name => !name.startsWith('gnomon caster'));
+    const masks = [await warm.mask(shape), await cold.mask(cold.draw(lights))];
+    ['createRenderPipelineAsync', 'createComputePipelineAsync', 'createRenderPipeline', 'createComputePipeline'].forEach(kind => delete device[kind]);
+    warm.end();
+    cold.end();
+    return {apart: farthest(...masks), least: Math.min(...masks[0]), ahead, late};
 }
 
 /** By how much the masks differ of boxes whose texture is clear everywhere, and of no boxes. */
@@ -184,4 +216,4 @@ function refusal(options) {
     return '';
 }
 
-Object.assign(globalThis, {drawCase, drawExample, drawHoles, drawOn, refusal, hasDevice: Boolean(device), isReady: true});
+Object.assign(globalThis, {drawCase, drawExample, drawHoles, drawOn, drawWarm, refusal, hasDevice: Boolean(device), isReady: true});

@@ -110,6 +110,16 @@ class Web(unittest.TestCase):
                 if "keep-still" in settings:
                     self.assertGreater(told["reuse"]["restored"], 0, "nothing was restored")
 
+    def test_no_frame_compiles_what_was_warmed_up(self):
+        for settings in ({"filter": "hard", "partition": "single"}, {"filter": "vsm", "partition": "cascades", "map-size": 128}):
+            with self.subTest(settings):
+                told = self.browser.run(f"drawWarm({json.dumps(settings)})")
+                print(f"{settings['filter']}: {told}")
+                self.assertIn(f"gnomon mask_{settings['filter']}.frag", told["ahead"])
+                self.assertEqual(told["late"], [])
+                self.assertEqual(told["apart"], 0)
+                self.assertLess(told["least"], 128, "there is no shadow to compare")
+
     def test_textures_cut_holes(self):
         self.assertEqual(self.browser.run("drawHoles()"), [0, 255])
 

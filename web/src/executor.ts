@@ -96,6 +96,17 @@ export class Executor {
         }
         this.retired.splice(0).forEach(giveBack => giveBack());
     }
+    /** Compiles what commands draw with, in the background, and draws nothing. Images have to be there. */
+    compile(list: Command[]): Promise<void> {
+        this.submit(list.filter(one => one.kind === 'makeBuffer' || one.kind === 'makeImage' || one.kind === 'dropOptions'));
+        return this.pipelines.compileAhead(() => list.forEach(one => {
+            if (one.kind === 'drawTriangle') {
+                this.triangleOf(one);
+            } else if (one.kind === 'runCompute') {
+                this.computeOf(one);
+            }
+        }));
+    }
     run(list: Command[], encoder: GPUCommandEncoder, plan: Plan | null, drawCasters: DrawCasters): void {
         this.encoder = encoder;
         try {
@@ -286,23 +297,30 @@ export class Executor {
         this.pass = keep && {...keep, key: ''};
     }
 
-    private drawTriangle(command: DrawTriangle): void {
+    private triangleOf(command: DrawTriangle): {pipeline: GPURenderPipeline | null, group: GPUBindGroup} {
         // Software rasterisers read the lights in the vertex shader; WGSL does without.
         const vertex = command.vertex === 'mask_numbers.vert' ? 'mask.vert' : command.vertex;
         const {layouts, group} = this.bind(command.fragment, command.bindings);
-        const pipeline = this.pipelines.triangle(vertex, command.fragment, command.constants, layouts, this.stateOf(command.target), command.least);
+        return {group, pipeline: this.pipelines.triangle(vertex, command.fragment, command.constants, layouts, this.stateOf(command.target), command.least)};
+    }
+    private drawTriangle(command: DrawTriangle): void {
+        const {pipeline, group} = this.triangleOf(command);
         const pass = this.passOf(command.target);
-        pass.setPipeline(pipeline);
+        pass.setPipeline(pipeline!);
         pass.setBindGroup(0, group);
         this.setPush(pass, command.push);
         pass.draw(3);
     }
-    private runCompute(command: RunCompute): void {
-        this.endPass();
+    private computeOf(command: RunCompute): {pipeline: GPUComputePipeline | null, group: GPUBindGroup} {
         const stores = this.storesOf(command.module, command.bindings);
         const {layouts, group} = this.bind(command.module, command.bindings);
+        return {group, pipeline: this.pipelines.compute(command.module, command.constants, layouts, stores?.shape.format ?? 'any')};
+    }
+    private runCompute(command: RunCompute): void {
+        this.endPass();
+        const {pipeline, group} = this.computeOf(command);
         const pass = this.encoder!.beginComputePass({label: `gnomon ${command.module}`});
-        pass.setPipeline(this.pipelines.compute(command.module, command.constants, layouts, stores?.shape.format ?? 'any'));
+        pass.setPipeline(pipeline!);
         pass.setBindGroup(0, group);
         this.setPush(pass, command.push);
         pass.dispatchWorkgroups(...command.groups);

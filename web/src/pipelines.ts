@@ -15,6 +15,8 @@ export class Pipelines {
     private readonly device: GPUDevice;
     private readonly shaders: Shaders;
     private readonly made = new Map<string, unknown>();
+    private readonly begun = new Map<string, Promise<unknown>>(); // pipelines that compile in the background
+    private ahead: Promise<unknown>[] | null = null; // of the compileAhead() that runs
     private readonly empty: GPUBindGroupLayout;
     /** The layout of push data. */
     readonly push: GPUBindGroupLayout;
@@ -39,6 +41,29 @@ export class Pipelines {
             this.made.set(key, found);
         }
         return found;
+    }
+
+    /** Pipelines that `body` asks for are compiled in the background, and it gets none. Done when all of them are there. */
+    async compileAhead(body: () => void): Promise<void> {
+        const all = this.ahead = [] as Promise<unknown>[];
+        try {
+            body();
+        } finally {
+            this.ahead = null;
+        }
+        await Promise.all(all);
+    }
+    private pipeline<T>(key: string, make: () => T, begin: () => Promise<T>): T | null {
+        if (!this.ahead || this.made.has(key)) {
+            return this.once(key, make);
+        }
+        let made = this.begun.get(key);
+        if (!made) {
+            made = begin().then(one => this.made.set(key, one)).finally(() => this.begun.delete(key));
+            this.begun.set(key, made);
+        }
+        this.ahead.push(made);
+        return null;
     }
 
     private code(name: string, form: string): GPUShaderModule {
@@ -100,21 +125,24 @@ export class Pipelines {
         });
     }
 
-    compute(name: string, words: Uint32Array, layouts: Layouts, stores: string): GPUComputePipeline {
-        return this.once(`compute ${name} ${words.join()} ${stores} ${this.numberOf(layouts)}`, () => this.device.createComputePipeline({
+    compute(name: string, words: Uint32Array, layouts: Layouts, stores: string): GPUComputePipeline | null {
+        const descriptor = () => ({
             label: `gnomon ${name}`, layout: layouts.all,
-            compute: {module: this.code(name, stores), entryPoint: 'main', constants: this.constants(name, stores, words)}}));
+            compute: {module: this.code(name, stores), entryPoint: 'main', constants: this.constants(name, stores, words)}});
+        return this.pipeline(`compute ${name} ${words.join()} ${stores} ${this.numberOf(layouts)}`,
+                             () => this.device.createComputePipeline(descriptor()), () => this.device.createComputePipelineAsync(descriptor()));
     }
 
-    /** A triangle over the target. */
-    triangle(vertex: string, fragment: string, words: Uint32Array, layouts: Layouts, target: TargetState, least: boolean): GPURenderPipeline {
+    /** A triangle over the target. Null, as of compute(): it is compiled ahead. */
+    triangle(vertex: string, fragment: string, words: Uint32Array, layouts: Layouts, target: TargetState, least: boolean): GPURenderPipeline | null {
         const key = `draw ${vertex} ${fragment} ${words.join()} ${this.numberOf(layouts)} ${Object.values(target).join()} ${least}`;
-        return this.once(key, () => this.device.createRenderPipeline({
+        const descriptor = (): GPURenderPipelineDescriptor => ({
             label: `gnomon ${fragment}`, layout: layouts.all, primitive: {topology: 'triangle-list'},
             vertex: {module: this.code(vertex, 'any'), entryPoint: 'main'},
             fragment: {module: this.code(fragment, 'any'), entryPoint: 'main', constants: this.constants(fragment, 'any', words),
                        targets: colourTargets(target, least)},
-            ...stateOf(target)}));
+            ...stateOf(target)});
+        return this.pipeline(key, () => this.device.createRenderPipeline(descriptor()), () => this.device.createRenderPipelineAsync(descriptor()));
     }
 
     /** Triangles of the executor's own, which a layout of its own binds. */

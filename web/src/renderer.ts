@@ -82,6 +82,20 @@ export class ShadowRenderer {
         });
     }
 
+    /**
+     * Compiles in the background what `draw()` of this plan needs, so that no frame waits for it. Call it after `prepare()`. It draws nothing,
+     * and the maps are lost: call `prepare()` again before `draw()`, which may be of other options meanwhile. Pipelines of casters are
+     * the host's own. Rejects with GnomonError or GPUPipelineError.
+     */
+    async warmUp(plan: Plan, inputs: MaskInputs): Promise<void> {
+        this.requireLast(plan);
+        const begun = this.guarded(() => {
+            this.executor.setInputs(inputs);
+            return this.executor.compile([...this.recorder.drawMaps(), ...this.recorder.drawMask(inputs, plan.reversedZ)]);
+        });
+        this.recorder.lose(true);
+        await begun;
+    }
     /** Records `drawMaps()` and `drawMask()`. */
     draw(encoder: GPUCommandEncoder, plan: Plan, inputs: MaskInputs, drawCasters: DrawCasters): void {
         this.drawMaps(encoder, plan, drawCasters);

@@ -4,6 +4,7 @@ import { kDefaults, partsOf, readAddress, writeAddress, type PageState } from '.
 import { Controls, element, type Choice } from './controls.ts';
 import { drag, listen } from './pointer.ts';
 import { Renderer } from './renderer.ts';
+import { kStandIn, type Drawn } from './shadows.ts';
 import { Truth } from './truth.ts';
 import { clamp, degrees, dolly, lengthOf, orbit, pan, subtract, sunDirection, sunPlace, type Camera } from './vectors.ts';
 import { fetchWorld, readWorld, type World } from './world.ts';
@@ -39,13 +40,11 @@ class Page {
   private mask: Uint8Array | undefined; // of the frame that is shown
   private loading = '';
   private toTrace: ArrayBuffer | undefined; // a world that is not traced before its shadows have been seen
-  /** The first picture has no shadows yet: on a processor their shaders take seconds to compile. */
-  private step: 'nothing' | 'surfaces' | 'shadows' = 'nothing';
-  private shadowed = false; // shadows have been drawn
 
   constructor(private readonly renderer: Renderer, private readonly choices: Choice[], private readonly software: boolean) {
     this.state = this.stateOf(location.hash);
-    renderer.shown = () => this.shown();
+    renderer.shown = (what) => this.shown(what);
+    renderer.shadows.compiled = () => this.redraw(true);
     this.truth = new Truth(() => this.redraw(false));
     this.controls = new Controls(choices, renderer.shadows.options(), kWorlds, (parts) => this.change(parts), () => this.state);
     this.listen();
@@ -209,30 +208,19 @@ class Page {
       }
     }
     this.renderer.setTruth(this.truth.visibility);
-    if (this.step === 'nothing') {
-      this.renderer.draw(state, sight, 'surfaces');
-      return;
-    }
-    this.shadowed ||= anew;
-    this.say(this.renderer.draw(state, sight, anew ? 'shadows' : 'light'));
-    if (!this.mask) {
+    this.say(this.renderer.draw(state, sight, anew));
+    if (!this.mask && this.renderer.shadows.drawn === 'shadows') {
       void this.readMask();
     }
     this.showNumbers();
   }
 
   /** A picture is on the canvas. */
-  private shown(): void {
-    const first = this.step === 'nothing';
-    if (first) {
-      this.step = 'surfaces';
-      this.redraw(true);
-    } else if (this.shadowed) {
-      this.step = 'shadows';
-    }
-    document.body.dataset.shown = this.step;
-    element('waiting').textContent = this.step === 'surfaces' ? 'Compiling shaders of shadows …' : '';
-    if (this.toTrace && this.step === 'shadows') {
+  private shown(what: Drawn): void {
+    document.body.dataset.shown = what;
+    element('waiting').textContent = what === 'shadows' ? '' : what === 'nothing' ? 'Compiling shaders of shadows …'
+      : `Shadows by ${kStandIn} until shaders of ${this.state.technique} are compiled …`;
+    if (this.toTrace && what === 'shadows') {
       this.truth.setWorld(this.toTrace);
       this.toTrace = undefined;
     }
@@ -258,6 +246,10 @@ class Page {
     const rmse = this.mask && this.truth.rmseOf(this.mask);
     element('rmse').textContent = rmse === undefined ? '–' : rmse.toFixed(4);
     element('rays').textContent = this.truth.samples > 0 ? String(this.truth.samples) : '–';
+    if (this.renderer.shadows.drawn !== 'shadows') { // numbers are of the filter that was asked for
+      element('rmse').textContent = element('maps').textContent = element('texels').textContent = '–';
+      return;
+    }
     const { maps, texels } = this.renderer.shadows.counts;
     element('maps').textContent = String(maps);
     element('texels').textContent = texels >= 2 ** 20 ? `${(texels / 2 ** 20).toFixed(1)} Mi` : `${Math.round(texels / 1024)} Ki`;

@@ -2,7 +2,7 @@
 // Draws a world by WebGPU: its surfaces, Gnomon's mask, and the lit picture with the truth beside it.
 import { kViews, type PageState } from './address.ts';
 import shadeText from './shade.wgsl';
-import { Shadows } from './shadows.ts';
+import { Shadows, type Drawn } from './shadows.ts';
 import smoothText from './smooth.wgsl';
 import type { Choice } from './controls.ts';
 import { readTexels, Screen } from './screen.ts';
@@ -31,8 +31,8 @@ interface Targets {
 }
 
 export class Renderer {
-  /** Called when a picture is on the canvas. */
-  shown: () => void = () => undefined;
+  /** Called when a picture is on the canvas, with these shadows. */
+  shown: (what: Drawn) => void = () => undefined;
   private readonly screen: Screen;
   private readonly frame: GPUBuffer;
   private readonly sampler: GPUSampler;
@@ -50,7 +50,7 @@ export class Renderer {
   }
 
   private constructor(private readonly device: GPUDevice, private readonly canvas: HTMLCanvasElement, readonly shadows: Shadows, software: boolean) {
-    this.screen = new Screen(device, canvas, software, () => this.shown());
+    this.screen = new Screen(device, canvas, software, (what) => this.shown(what));
     const { screen } = this;
     this.frame = device.createBuffer({ size: 4 * kFrameFloats, usage: GPUBufferUsage.UNIFORM | GPUBufferUsage.COPY_DST });
     this.sampler = device.createSampler({ magFilter: 'linear', minFilter: 'linear', mipmapFilter: 'linear', addressModeU: 'repeat', addressModeV: 'repeat' });
@@ -118,9 +118,9 @@ export class Renderer {
     return this.scene?.radius ?? 1;
   }
 
-  /** Draws a frame. `drawn`: which parts are drawn anew; the others are those of the last frame. The text that it returns is for the
+  /** Draws a frame. `anew`: with other surfaces and shadows than the last frame's. The text that it returns is for the
    * visitor: why shadows are not as asked, or nothing. */
-  draw(state: PageState, sight: Sight, drawn: 'light' | 'surfaces' | 'shadows'): string {
+  draw(state: PageState, sight: Sight, anew: boolean): string {
     if (!this.scene) {
       return '';
     }
@@ -129,15 +129,13 @@ export class Renderer {
     let said = this.said;
     const clip = this.writeFrame(state, sight, this.scene.world);
     const encoder = this.device.createCommandEncoder();
-    if (drawn !== 'light') {
+    if (anew) {
       const pass = encoder.beginRenderPass({
         colorAttachments: [targets.albedo, targets.normal, targets.geometric].map((texture) => ({ view: texture.createView(), loadOp: 'clear', storeOp: 'store' }) as const),
         depthStencilAttachment: { view: targets.depth.createView(), depthClearValue: 0, depthLoadOp: 'clear', depthStoreOp: 'store' },
       });
       this.scene.draw(pass);
       pass.end();
-    }
-    if (drawn === 'shadows') {
       said = this.shadows.record(encoder, { state, ...sight, clip_from_world: clip, width, height, depth: targets.depth, normal: targets.geometric });
     }
     const resources: GPUBindingResource[] = [
@@ -148,7 +146,7 @@ export class Renderer {
     const last = state.view === 'shaded' ? this.smoothing : this.copying;
     this.fill(encoder, last, this.screen.view(), [targets.lit.createView(), this.sampler]);
     this.device.queue.submit([encoder.finish()]);
-    this.screen.show();
+    this.screen.show(this.shadows.drawn);
     this.said = said;
     return said;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where finished pictures go, and how pixels come back from the device.
 
+import type { Drawn } from './shadows.ts';
+
 /** The texels of a texture of one or four bytes each, rows without gaps. */
 export async function readTexels(device: GPUDevice, texture: GPUTexture, bytes: 1 | 4): Promise<Uint8Array<ArrayBuffer>> {
   const { width, height } = texture;
@@ -26,10 +28,12 @@ export class Screen {
   private readonly context: GPUCanvasContext | undefined;
   private picture: GPUTexture | undefined;
   private copying = false;
+  private what: Drawn = 'nothing';
   private again = false;
 
   /** Throws an Error where the canvas cannot be drawn to. */
-  constructor(private readonly device: GPUDevice, private readonly canvas: HTMLCanvasElement, software: boolean, private readonly shown: () => void) {
+  constructor(private readonly device: GPUDevice, private readonly canvas: HTMLCanvasElement, software: boolean,
+              private readonly shown: (what: Drawn) => void) {
     this.format = software ? 'rgba8unorm' : navigator.gpu.getPreferredCanvasFormat();
     if (!software) {
       const context = canvas.getContext('webgpu');
@@ -56,9 +60,10 @@ export class Screen {
   }
 
   /** Shows what was submitted. One copy at a time: frames in between are left out. */
-  show(): void {
+  show(what: Drawn): void {
+    this.what = what;
     if (this.context) {
-      this.shown();
+      this.shown(what);
     } else if (this.copying) {
       this.again = true;
     } else {
@@ -70,11 +75,11 @@ export class Screen {
     this.copying = true;
     do {
       this.again = false;
-      const picture = this.picture!;
+      const [picture, what] = [this.picture!, this.what];
       const texels = await readTexels(this.device, picture, 4);
       if (picture.width === this.canvas.width && picture.height === this.canvas.height) {
         this.canvas.getContext('2d')!.putImageData(new ImageData(new Uint8ClampedArray(texels.buffer), picture.width), 0, 0);
-        this.shown();
+        this.shown(what);
       }
     } while (this.again);
     this.copying = false;

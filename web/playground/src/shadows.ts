@@ -4,10 +4,10 @@ import {
   CasterPipelines, flipY, loadGnomon, loadShaders, ShadowRenderer, type CasterMesh, type Gnomon, type ObjectSet, type Option, type Plan, type Planner,
   type Shaders,
 } from 'gnomon-shadows';
-import { partsOf, type PageState } from './address.ts';
+import { kDefaults, partsOf, type PageState } from './address.ts';
 import type { Choice } from './controls.ts';
 import type { SceneOnGpu } from './scene_on_gpu.ts';
-import { radians, type Camera, type Vec3 } from './vectors.ts';
+import { clipFromWorld, radians, type Camera, type Vec3 } from './vectors.ts';
 import { kVertexBytes } from './world.ts';
 
 export interface ShadowFrame {
@@ -24,6 +24,11 @@ export interface ShadowFrame {
   normal: GPUTexture;
 }
 
+/** What the last record() drew: none while shaders are compiled, or those of the stand-in. */
+export type Drawn = 'nothing' | 'stand-in' | 'shadows';
+
+/** Whose shadows are shown until those that are asked for have been compiled: its shaders compile soonest, and are the same for all worlds. */
+export const kStandIn = 'hard+single+uniform';
 const kDirectional = 0; // GnomonLightType
 const kPlanned = 0; // GnomonOutcome
 const kSoftwareTexels = 2 ** 20; // of maps whose size the planner chooses, where a processor draws them
@@ -31,6 +36,10 @@ const kSoftwareTexels = 2 ** 20; // of maps whose size the planner chooses, wher
 export class Shadows {
   /** Maps of the last plan, and texels of these. */
   readonly counts = { maps: 0, texels: 0 };
+  drawn: Drawn = 'nothing';
+  /** Called when shaders have been compiled: record() draws others then. */
+  compiled: () => void = () => undefined;
+  private readonly ready = new Map<string, boolean>(); // are an option set's shaders compiled? False: they are being
   private readonly planner: Planner;
   private readonly renderer: ShadowRenderer;
   private readonly casters: CasterPipelines;
@@ -40,9 +49,9 @@ export class Shadows {
   private meshes: CasterMesh[][] = []; // by place
   private scene: SceneOnGpu | undefined;
   private frames = 0;
-  private hasMask = false;
+  private standInDrawn = false;
 
-  private constructor(device: GPUDevice, private readonly gnomon: Gnomon, shaders: Shaders, private readonly choices: readonly Choice[],
+  private constructor(private readonly device: GPUDevice, private readonly gnomon: Gnomon, shaders: Shaders, private readonly choices: readonly Choice[],
                       private readonly software: boolean) {
     this.planner = gnomon.makePlanner();
     this.renderer = new ShadowRenderer(device, gnomon, this.planner, { shaders });
@@ -50,6 +59,19 @@ export class Shadows {
     const texture = device.createTexture({ size: [1, 1], format: 'r8unorm', usage: GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.COPY_DST });
     device.queue.writeTexture({ texture }, Uint8Array.of(255), {}, [1, 1]);
     this.lit = texture.createView();
+    this.begin();
+  }
+
+  /** Begins to compile the stand-in's shaders, which are the same in any world: of a box, while the world is loaded. */
+  private begin(): void {
+    const camera: Camera = { eye: [0, 2, 8], target: [0, 0, 0], fov: 45 };
+    const input = (format: GPUTextureFormat): GPUTexture => this.device.createTexture({ size: [8, 8], format, usage: GPUTextureUsage.TEXTURE_BINDING });
+    this.objects = this.gnomon.makeObjects();
+    this.objects.add({ min: [-2, -2, -2], max: [2, 2, 2] });
+    const state = { ...kDefaults, technique: kStandIn };
+    this.isReady(this.optionsOf(state), {
+      state, camera, sun: [0.6, -0.8, 0], clip_from_world: clipFromWorld(camera, 1, 0.1), width: 8, height: 8, depth: input('depth32float'), normal: input('rg16float'),
+    });
   }
 
   /** Loads the library and its shaders. */
@@ -90,14 +112,19 @@ export class Shadows {
     scene.bounds.forEach(({ min, max }, place) => this.objects!.add({ min, max }, { casts: casts[place] }));
   }
 
-  /** Gives the planner the options that a state asks for. Throws with a sentence where one cannot be had. */
-  private apply(state: PageState): void {
+  /** The options that a state asks for. */
+  private optionsOf(state: PageState): Map<string, string> {
     const wanted = new Map(Object.entries({ ...partsOf(state.technique, this.choices), ...state.options }));
     if (state.map > 0) {
       wanted.set('map-size', String(state.map));
     } else if (this.software) {
       wanted.set('texels', String(kSoftwareTexels));
     }
+    return wanted;
+  }
+
+  /** Gives them to the planner. Throws with a sentence where one cannot be had. */
+  private apply(wanted: Map<string, string>): void {
     for (const key of new Set([...this.applied.keys(), ...wanted.keys()])) {
       const value = wanted.get(key) ?? '';
       if ((this.applied.get(key) ?? '') !== value) {
@@ -108,24 +135,55 @@ export class Shadows {
     this.planner.check(kDirectional);
   }
 
+  private plan(frame: ShadowFrame): Plan {
+    const plan = this.planner.plan({
+      index: ++this.frames, widthPx: frame.width, heightPx: frame.height, objects: this.objects!, clampsDepth: this.renderer.clampsDepth,
+      camera: { eyeWs: frame.camera.eye, clipFromWorld: flipY(frame.clip_from_world), reversedZ: true },
+      lights: [{ key: 1, type: kDirectional, directionWs: frame.sun, angularDiameterRad: radians(frame.state.light) }],
+    });
+    this.renderer.prepare(plan, [frame.width, frame.height]);
+    return plan;
+  }
+
+  /** Have the shaders of these options been compiled? Else that begins. Throws where the options cannot be had. */
+  private isReady(options: Map<string, string>, frame: ShadowFrame): boolean {
+    const key = JSON.stringify([...options].sort());
+    if (!this.ready.has(key)) {
+      this.apply(options);
+      const done = (): void => {
+        this.ready.set(key, true); // draw() says what is wrong, if anything is
+        this.compiled();
+      };
+      this.renderer.warmUp(this.plan(frame), { depth: frame.depth, normal: frame.normal }).then(done, done);
+      this.ready.set(key, false);
+    }
+    return this.ready.get(key)!;
+  }
+
   /** Records maps and mask. The text that it returns is for the visitor: why the shadows are not as asked, or nothing. */
   record(encoder: GPUCommandEncoder, frame: ShadowFrame): string {
-    this.hasMask = false;
+    this.drawn = 'nothing';
     if (!this.objects || !this.scene) {
       return '';
     }
     try {
-      this.apply(frame.state);
-      const plan = this.planner.plan({
-        index: ++this.frames, widthPx: frame.width, heightPx: frame.height, objects: this.objects, clampsDepth: this.renderer.clampsDepth,
-        camera: { eyeWs: frame.camera.eye, clipFromWorld: flipY(frame.clip_from_world), reversedZ: true },
-        lights: [{ key: 1, type: kDirectional, directionWs: frame.sun, angularDiameterRad: radians(frame.state.light) }],
-      });
-      this.renderer.prepare(plan, [frame.width, frame.height]);
+      const standIn = this.optionsOf({ ...frame.state, technique: kStandIn, options: {} });
+      if (!this.isReady(standIn, frame)) {
+        return '';
+      }
+      const asked = this.optionsOf(frame.state);
+      // Others' shaders are compiled once the stand-in's shadows are seen: they would take processors from it.
+      const isReady = this.standInDrawn && this.isReady(asked, frame);
+      this.apply(isReady ? asked : standIn);
+      const plan = this.plan(frame);
       const places = this.scene.world.placeValues;
       this.renderer.draw(encoder, plan, { depth: frame.depth, normal: frame.normal }, (pass) =>
         this.casters.draw(pass, (object) => this.meshes[object], (object) => places.subarray(12 * object, 12 * object + 12)));
-      this.hasMask = true;
+      this.drawn = isReady ? 'shadows' : 'stand-in';
+      if (!this.standInDrawn) {
+        this.standInDrawn = true;
+        setTimeout(() => void this.device.queue.onSubmittedWorkDone().then(() => this.compiled()));
+      }
       return this.outcome(plan);
     } catch (error) {
       return `${error instanceof Error ? error.message : error}.`;
@@ -141,6 +199,6 @@ export class Shadows {
 
   /** The mask of the last record(); light everywhere if there is none. */
   mask(): GPUTextureView {
-    return this.hasMask ? this.renderer.mask.createView({ dimension: '2d', baseArrayLayer: 0, arrayLayerCount: 1 }) : this.lit;
+    return this.drawn !== 'nothing' ? this.renderer.mask.createView({ dimension: '2d', baseArrayLayer: 0, arrayLayerCount: 1 }) : this.lit;
   }
 }
