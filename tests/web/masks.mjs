@@ -123,8 +123,8 @@ async function drawOn(settings, names) {
 }
 
 /**
- * Frames of a renderer that was warmed up, and of one that was not: by how much their masks differ, and which of the package's pipelines
- * are compiled by warming up and by the frame after it. Casters' are the host's.
+ * Frames of a renderer that was warmed up, and of one that was not: by how much their masks differ, and which pipelines
+ * are compiled by warming up, and by the frame after it. Those of casters are the host's, and those that clear run no module.
  */
 async function drawWarm(settings) {
     const {lights} = told['cases'].cases[0];
@@ -141,7 +141,7 @@ async function drawWarm(settings) {
     const ahead = names.ahead.slice();
     names.late.length = 0;
     const shape = warm.draw(lights);
-    const late = names.late.filter(name => !name.startsWith('gnomon caster'));
+    const late = names.late.filter(name => !/^gnomon (caster|clear)/.test(name));
     const masks = [await warm.mask(shape), await cold.mask(cold.draw(lights))];
     ['createRenderPipelineAsync', 'createComputePipelineAsync', 'createRenderPipeline', 'createComputePipeline'].forEach(kind => delete device[kind]);
     warm.end();

@@ -99,13 +99,8 @@ export class Executor {
     /** Compiles what commands draw with, in the background, and draws nothing. Images have to be there. */
     compile(list: Command[]): Promise<void> {
         this.submit(list.filter(one => one.kind === 'makeBuffer' || one.kind === 'makeImage' || one.kind === 'dropOptions'));
-        return this.pipelines.compileAhead(() => list.forEach(one => {
-            if (one.kind === 'drawTriangle') {
-                this.triangleOf(one);
-            } else if (one.kind === 'runCompute') {
-                this.computeOf(one);
-            }
-        }));
+        return this.pipelines.compileAhead(() => list.forEach(
+            one => one.kind === 'drawTriangle' ? this.triangleOf(one) : one.kind === 'runCompute' ? this.computeOf(one) : null));
     }
     run(list: Command[], encoder: GPUCommandEncoder, plan: Plan | null, drawCasters: DrawCasters): void {
         this.encoder = encoder;

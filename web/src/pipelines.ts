@@ -15,7 +15,7 @@ export class Pipelines {
     private readonly device: GPUDevice;
     private readonly shaders: Shaders;
     private readonly made = new Map<string, unknown>();
-    private readonly begun = new Map<string, Promise<unknown>>(); // pipelines that compile in the background
+    private readonly begun = new Map<string, Promise<unknown>>(); // pipelines that were compiled in the background, or are being
     private ahead: Promise<unknown>[] | null = null; // of the compileAhead() that runs
     private readonly empty: GPUBindGroupLayout;
     /** The layout of push data. */
@@ -57,11 +57,8 @@ export class Pipelines {
         if (!this.ahead || this.made.has(key)) {
             return this.once(key, make);
         }
-        let made = this.begun.get(key);
-        if (!made) {
-            made = begin().then(one => this.made.set(key, one)).finally(() => this.begun.delete(key));
-            this.begun.set(key, made);
-        }
+        const made = this.begun.get(key) ?? begin().then(one => this.made.set(key, one));
+        this.begun.set(key, made);
         this.ahead.push(made);
         return null;
     }

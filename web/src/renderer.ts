@@ -83,9 +83,8 @@ export class ShadowRenderer {
     }
 
     /**
-     * Compiles in the background what `draw()` of this plan needs, so that no frame waits for it. Call it after `prepare()`. It draws nothing,
-     * and the maps are lost: call `prepare()` again before `draw()`, which may be of other options meanwhile. Pipelines of casters are
-     * the host's own. Rejects with GnomonError or GPUPipelineError.
+     * Compiles in the background the modules that `draw()` of this plan runs. Call it after `prepare()`. It draws nothing, and the maps
+     * are lost: call `prepare()` again before `draw()`. Pipelines of casters are the host's. Rejects with GnomonError or GPUPipelineError.
      */
     async warmUp(plan: Plan, inputs: MaskInputs): Promise<void> {
         this.requireLast(plan);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where finished pictures go, and how pixels come back from the device.
-
 import type { Drawn } from './shadows.ts';
 
 /** The texels of a texture of one or four bytes each, rows without gaps. */

@@ -24,9 +24,8 @@ export interface ShadowFrame {
   normal: GPUTexture;
 }
 
-/** What the last record() drew: none while shaders are compiled, or those of the stand-in. */
+/** What the last record() drew: nothing while shaders are compiled, then the stand-in's shadows, then those that are asked for. */
 export type Drawn = 'nothing' | 'stand-in' | 'shadows';
-
 /** Whose shadows are shown until those that are asked for have been compiled: its shaders compile soonest, and are the same for all worlds. */
 export const kStandIn = 'hard+single+uniform';
 const kDirectional = 0; // GnomonLightType
@@ -49,7 +48,7 @@ export class Shadows {
   private meshes: CasterMesh[][] = []; // by place
   private scene: SceneOnGpu | undefined;
   private frames = 0;
-  private standInDrawn = false;
+  private hasMask = false;
 
   private constructor(private readonly device: GPUDevice, private readonly gnomon: Gnomon, shaders: Shaders, private readonly choices: readonly Choice[],
                       private readonly software: boolean) {
@@ -135,7 +134,9 @@ export class Shadows {
     this.planner.check(kDirectional);
   }
 
-  private plan(frame: ShadowFrame): Plan {
+  /** A plan with these options, whose images are there. Throws as apply() does. */
+  private plan(options: Map<string, string>, frame: ShadowFrame): Plan {
+    this.apply(options);
     const plan = this.planner.plan({
       index: ++this.frames, widthPx: frame.width, heightPx: frame.height, objects: this.objects!, clampsDepth: this.renderer.clampsDepth,
       camera: { eyeWs: frame.camera.eye, clipFromWorld: flipY(frame.clip_from_world), reversedZ: true },
@@ -149,19 +150,18 @@ export class Shadows {
   private isReady(options: Map<string, string>, frame: ShadowFrame): boolean {
     const key = JSON.stringify([...options].sort());
     if (!this.ready.has(key)) {
-      this.apply(options);
-      const done = (): void => {
-        this.ready.set(key, true); // draw() says what is wrong, if anything is
-        this.compiled();
-      };
-      this.renderer.warmUp(this.plan(frame), { depth: frame.depth, normal: frame.normal }).then(done, done);
+      const begun = this.renderer.warmUp(this.plan(options, frame), { depth: frame.depth, normal: frame.normal });
       this.ready.set(key, false);
+      const done = (): unknown => this.ready.set(key, true); // what is wrong, if anything is, record() says
+      void begun.then(done, done).then(() => this.compiled());
     }
     return this.ready.get(key)!;
   }
 
   /** Records maps and mask. The text that it returns is for the visitor: why the shadows are not as asked, or nothing. */
   record(encoder: GPUCommandEncoder, frame: ShadowFrame): string {
+    const last = this.drawn;
+    this.hasMask = false;
     this.drawn = 'nothing';
     if (!this.objects || !this.scene) {
       return '';
@@ -173,19 +173,19 @@ export class Shadows {
       }
       const asked = this.optionsOf(frame.state);
       // Others' shaders are compiled once the stand-in's shadows are seen: they would take processors from it.
-      const isReady = this.standInDrawn && this.isReady(asked, frame);
-      this.apply(isReady ? asked : standIn);
-      const plan = this.plan(frame);
+      const isReady = last !== 'nothing' && this.isReady(asked, frame);
+      const plan = this.plan(isReady ? asked : standIn, frame);
       const places = this.scene.world.placeValues;
       this.renderer.draw(encoder, plan, { depth: frame.depth, normal: frame.normal }, (pass) =>
         this.casters.draw(pass, (object) => this.meshes[object], (object) => places.subarray(12 * object, 12 * object + 12)));
+      this.hasMask = true;
       this.drawn = isReady ? 'shadows' : 'stand-in';
-      if (!this.standInDrawn) {
-        this.standInDrawn = true;
+      if (last === 'nothing') { // it is submitted first
         setTimeout(() => void this.device.queue.onSubmittedWorkDone().then(() => this.compiled()));
       }
       return this.outcome(plan);
     } catch (error) {
+      this.drawn = 'shadows'; // that there are none is said
       return `${error instanceof Error ? error.message : error}.`;
     }
   }
@@ -199,6 +199,6 @@ export class Shadows {
 
   /** The mask of the last record(); light everywhere if there is none. */
   mask(): GPUTextureView {
-    return this.drawn !== 'nothing' ? this.renderer.mask.createView({ dimension: '2d', baseArrayLayer: 0, arrayLayerCount: 1 }) : this.lit;
+    return this.hasMask ? this.renderer.mask.createView({ dimension: '2d', baseArrayLayer: 0, arrayLayerCount: 1 }) : this.lit;
   }
 }
