@@ -103,7 +103,7 @@ int Writer::layerOf(const scene::TextureUse& use)
                             sum += image.rgba[(static_cast<std::size_t>(v) * image.width + u) * 4 + k];
                         }
                     }
-                    const std::uint32_t count = (x1 - x0) * (y1 - y0);
+                    const std::uint32_t count = std::max((x1 - x0) * (y1 - y0), 1U);
                     images.push_back(static_cast<std::uint8_t>((sum + count / 2) / count));
                 }
             }
