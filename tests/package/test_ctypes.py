@@ -20,10 +20,10 @@ NUMBERS = {"uint32_t": ctypes.c_uint32, "uint64_t": ctypes.c_uint64, "uint16_t":
 
 
 class Binding:
-    """What the two headers declare, for the library."""
+    """The declarations of the headers, for the library."""
 
     def __init__(self, headers: Path, library: str):
-        text = "\n".join((headers / name).read_text(encoding="utf-8") for name in ("gnomon_data.h", "gnomon.h"))
+        text = "\n".join((headers / name).read_text(encoding="utf-8") for name in ("gnomon_data.h", "gnomon_commands.h", "gnomon.h"))
         text = re.sub(r"//[^\n]*|^\s*#[^\n]*", "", text, flags=re.MULTILINE)
         self.types, self.values = dict(NUMBERS), {"GNOMON_INTERFACE": 1}
         for name in re.findall(r"typedef struct (\w+) \1;", text):
@@ -114,6 +114,21 @@ class Planned(unittest.TestCase):
         self.assertEqual(gnomon.gnomonLightAt(self.planner, 0).contents.outcome_name, b"ok")
         passes = [gnomon.gnomonPassAt(self.planner, i).contents.name for i in range(plan.contents.pass_count)]
         self.assertEqual(passes, [b"maps", b"mask"])
+
+    def test_a_frame_is_a_list_of_commands(self):
+        gnomon = self.gnomon
+        self.assertTrue(gnomon.gnomonPlan(self.planner, ctypes.byref(self.frame)))
+        recorder = gnomon.gnomonMakeRecorder(1, 256, 256, 0)
+        self.addCleanup(gnomon.gnomonFreeRecorder, recorder)
+        images = gnomon.gnomonRecordImages(recorder, self.planner, 64, 36)
+        self.assertTrue(images, gnomon.gnomonLastError().contents.message)
+        first = images.contents.commands[0]
+        self.assertEqual((first.kind, first.format, first.size_px[0]), (gnomon.values["GNOMON_MAKE_IMAGE"], b"d32f", 256))
+        maps = gnomon.gnomonRecordMaps(recorder, self.planner).contents
+        self.assertEqual(maps.maps_drawn, 4)
+        mask = gnomon.gnomonRecordMask(recorder, self.planner, 0, None).contents
+        last = mask.commands[mask.command_count - 1]
+        self.assertEqual((last.kind, last.module, last.viewport[2]), (gnomon.values["GNOMON_DRAW_TRIANGLE"], b"mask_pcf.frag", 64))
 
     def test_wrong_calls_are_told(self):
         gnomon = self.gnomon
