@@ -173,7 +173,9 @@ kit-packages: packages
 
 .PHONY: kit
 kit: kit-packages
+ifndef BUILT
 	@$(CONFIGURE_RELEASE) $(CMAKE_FLAGS)
+endif
 	@cmake --build build --target gnomon_spirv_modules gnomon_classic_spirv_modules -j $(JOBS)
 	@JOBS=$(JOBS) kit/make_kit.py build out/kit
 

@@ -53,7 +53,7 @@ ITEMS = {
     "fuzz": Item("make -s fuzz JOBS=$JOBS FUZZ_SECONDS=60", parts=("scene/", "image/", "truth/"),
                  paths=("tests/fuzz/", "tools/fuzz.sh", "app/src/preset", "app/src/setting", "app/src/bench_figures")),
     "kit": Item("make -s kit-check BUILT=1", paths=("kit/", "tests/kit/", "shaders/"), built=True),
-    "web": Item("make -s playground JOBS=$JOBS && " + BUILT + "web",
+    "web": Item("make -s playground BUILT=1 JOBS=$JOBS && " + BUILT + "web",
                 paths=("web/", "tests/web/", "tests/playground/", "kit/", "pack/src/commands/", "c/include/"), built=True),
     "osg": Item("tools/install_packages.sh --only examples packages.txt && cmake build && cmake --build build -j $JOBS && " + BUILT + "osg",
                 paths=("examples/osg/", "gl/"), built=True),
