@@ -116,6 +116,8 @@ def choose(options) -> int:
             without.setdefault(binary, []).extend(some)
         suites: dict[str, list] = {}
         for name, case in ran_in(options.ran_in).items():
+            if "file" not in case:
+                continue  # a script's, which no sanitizer sees
             left_out = is_for_release_alone(name, case)
             suites.setdefault(name.rpartition(".")[0], []).append((name, left_out))
             source = case["file"][case["file"].rindex("tests/"):]

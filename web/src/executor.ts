@@ -285,7 +285,7 @@ export class Executor {
         const view = plan.views[index]!;
         const {colour, depth, samples} = this.stateOf(target);
         drawCasters({encoder: this.passOf(target), plan, view, viewIndex: index, casters,
-                     colourFormat: colour, depthFormat: depth!, samples, colourWriteMask: target.channels, writesFragDepth: !colour && view.orthographic === 0,
+                     colourFormat: colour, depthFormat: depth!, samples, colourWriteMask: target.channels, writesFragDepth: view.writeDepth !== 0,
                      clampsDepth: view.clampNear !== 0});
         // Pipelines of the host's must not be taken for ours, nor its bind groups.
         const keep = this.pass;

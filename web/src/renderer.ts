@@ -103,10 +103,7 @@ export class ShadowRenderer {
     /** Records the maps that are out of date. `drawCasters` is called once for each. */
     drawMaps(encoder: GPUCommandEncoder, plan: Plan, drawCasters: DrawCasters): void {
         this.requireLast(plan);
-        // A lamp's depth z / w is the rasteriser's own.
-        const draw: DrawCasters = pass => drawCasters(
-            pass.writesFragDepth && this.planner.get('depth-metric', pass.view.options) === 'z-over-w' ? {...pass, writesFragDepth: false} : pass);
-        this.guarded(() => this.executor.run(this.recorder.drawMaps(), encoder, plan, draw));
+        this.guarded(() => this.executor.run(this.recorder.drawMaps(), encoder, plan, drawCasters));
     }
     /** Records the mask: every layer, every channel, 1 = fully lit. */
     drawMask(encoder: GPUCommandEncoder, plan: Plan, inputs: MaskInputs): void {

@@ -33,7 +33,7 @@ def camel(name: str) -> str:
     return first + "".join(one.capitalize() for one in rest)
 
 
-# Of wasm/precision.cpp.
+# Those of wasm/precision.cpp.
 OWN_FUNCTIONS = ("gnomonWebNormalError", "gnomonWebNormalErrorFromDepth")
 # Structs and enums that would hide a name of the language, or that src/ hands on in another form.
 OTHER_NAMES = {"GnomonError": "ErrorTexts", "GnomonBuffer": "BufferKind", "GnomonPlan": "PlanHead", "GnomonFrame": "FrameHead"}
@@ -44,7 +44,7 @@ def plain(name: str) -> str:
 
 
 class Header:
-    """What the C headers declare."""
+    """The declarations of the C headers."""
 
     def __init__(self, texts: list[str]):
         self.structs: dict[str, Struct] = {}

@@ -24,7 +24,7 @@ export interface ShadowFrame {
   normal: GPUTexture;
 }
 
-/** What the last record() drew: nothing while shaders are compiled, then the stand-in's shadows, then those that are asked for. */
+/** The shadows that the last record() drew: none while shaders are compiled, then the stand-in's shadows, then those that are asked for. */
 export type Drawn = 'nothing' | 'stand-in' | 'shadows';
 /** Whose shadows are shown until those that are asked for have been compiled: its shaders compile soonest, and are the same for all worlds. */
 export const kStandIn = 'hard+single+uniform';
