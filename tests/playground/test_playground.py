@@ -8,26 +8,23 @@ usage: test_playground.py BUILT [RESULTS.json]
 BUILT is what `make playground` makes. Without it or without Chromium nothing is tested, which is said; exit status 77.
 """
 
-import functools
-import http.server
 import json
 import os
 import sys
-import threading
 import time
 import unittest
 from pathlib import Path
 
 BUILT = Path(sys.argv[1]).resolve()
 RESULTS = Path(sys.argv[2]) if len(sys.argv) > 2 else None
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "page"))
+sys.path[:0] = [str(Path(__file__).resolve().parent.parent / name) for name in ("page", "web")]
 
 import browser as browsers  # noqa: E402
 from browser import Browser, find_chromium  # noqa: E402
 from recorder import run_cases  # noqa: E402
+from serving import FLAGS, Server  # noqa: E402
 
 DESKTOP, PHONE = (1280, 800), (390, 844)
-SOFTWARE = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"]
 FIRST_PICTURE_S = 5
 LONGEST_WAIT_S = 60  # for the shadows that are asked for: their shaders are compiled first
 LEAST_RAYS = 8
@@ -43,26 +40,19 @@ PIXELS = """(() => {
 })()"""
 
 
-class Quiet(http.server.SimpleHTTPRequestHandler):
-    def log_message(self, *_):
-        pass
-
-
 class Playground(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=BUILT))
-        threading.Thread(target=cls.server.serve_forever, daemon=True).start()
-        cls.address = f"http://127.0.0.1:{cls.server.server_port}/"
-        browsers.ARGUMENTS += SOFTWARE
+        cls.server = Server(BUILT)
+        cls.address = cls.server.address
+        browsers.ARGUMENTS += FLAGS
         browsers.LONGEST_WAIT_S = LONGEST_WAIT_S
         cls.browser = Browser(find_chromium())
 
     @classmethod
     def tearDownClass(cls):
         cls.browser.__exit__()
-        cls.server.shutdown()
-        cls.server.server_close()
+        cls.server.stop()
 
     def open(self, state: str = "", size: tuple[int, int] = DESKTOP, dark: bool = False) -> Browser:
         self.browser.screen(*size, phone=size == PHONE, dark=dark)
